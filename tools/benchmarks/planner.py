@@ -68,8 +68,11 @@ def apartment() -> tuple[RulePlanner, World]:
     """Return the planner, and its world model at home."""
     places = load_places(places_path('apartment'))
     surfaces = {base_name(each.name): places.room_at(*each.middle_m) for each in places.surfaces}
+    containers = tuple(base_name(each.name) for each in places.surfaces if each.is_container)
     rooms = tuple(sorted({each.name for each in places.rooms}))
-    return RulePlanner(load_skills(skills_path(''))), World(surfaces, rooms, THINGS)
+    return RulePlanner(load_skills(skills_path(''))), World(
+        surfaces, rooms, THINGS, containers=containers
+    )
 
 
 def cost_ms(planner: RulePlanner, world: World, text: str, runs: int) -> float:

@@ -5,15 +5,19 @@ Count how many spoken commands are understood, and how many other sentences are 
 Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
 sentences that are not commands; the recogniser has the grammar of the planner in the apartment,
 or is Whisper with a model of yours (`--whisper FOLDER`), beside which the grammar hears "stop".
-A command is correct if the plan of the recognized text equals that of the spoken one, and a stop
-if it stops the robot.
+A command is right if the plan of the recognized text equals that of the spoken one. In the column
+"article" are those whose plan differs only by "a" for "the" or the other way round, and in
+"wrong" all the rest. Others are taken for a command or for a stop. A stop is right if it stops the
+robot. `--roc` counts for several thresholds which commands are right, and which others are taken.
 """
 
 from __future__ import annotations
 
 import argparse
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+import math
 from pathlib import Path
 import re
 import shlex
@@ -83,17 +87,53 @@ SAMPLES = {
     'espeak en-us': ('please call my mother tonight',),
 }  # fmt: skip
 """The samples of the voice_control tests: commands, and sentences that are not commands."""
+Steps = tuple[tuple[str, str], ...]
+"""The skill and the arguments of each step of a plan, as text."""
+DEFINITE = re.compile(r'is_definite=\w+')
 SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
+KINDS_OF_COMMANDS = ('right', 'article', 'wrong', 'rejected')
+KINDS_OF_OTHERS = ('taken', 'taken for a stop')
+THRESHOLDS = (-4.0, -3.8, -3.6, -3.4, -3.2, -3.0, -2.8, -2.6, -2.4, -2.2, -2.0)
+"""The thresholds of `--roc`."""
+ACCEPT_ALL = -100.0
+"""A threshold below the ratio of any utterance."""
+SHORT_STOP = 4
+"""Stop phrases of so many words are accepted whatever the threshold."""
+
+
+@dataclass(frozen=True)
+class Spotted:
+    """What was recognized in a sound with one utterance or several."""
+
+    text: str
+    is_accepted: bool
+    is_stop: bool
+    confidence: float
+    """The least confidence of the utterances."""
 
 
 @dataclass
 class Row:
-    """Counts of the sentences of a voice: right, rejected, wrong; false accepts; stops."""
+    """Counts of the sentences of a voice by kind, and what was accepted, for the ROC."""
 
     counts: Counter[str] = field(default_factory=Counter)
     speech_s: float = 0.0
     cpu_s: float = 0.0
+    accepted: list[tuple[str, float]] = field(default_factory=list)
+    """The kind and the confidence of each sentence that was accepted."""
+
+    def above(self, threshold: float) -> Counter[str]:
+        """
+        Count the sentences by kind that are accepted above a threshold.
+
+        Parameters
+        ----------
+        threshold
+            The minimum confidence.
+
+        """
+        return Counter(kind for kind, confidence in self.accepted if confidence >= threshold)
 
 
 def main() -> int:
@@ -107,7 +147,14 @@ def main() -> int:
         '--threshold', type=float, default=THRESHOLD, help='that of the recogniser'
     )
     parser.add_argument(
+        '--held-out', action='store_true',
+        help='the sentences of speech_held_out.yaml, not those of the tests',
+    )  # fmt: skip
+    parser.add_argument(
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
+    )
+    parser.add_argument(
+        '--roc', action='store_true', help='also count what other thresholds would accept'
     )
     parser.add_argument('--raw', action='store_true', help='without noise suppression')
     parser.add_argument('--list', action='store_true', help='print what was not understood')
@@ -134,32 +181,50 @@ def main() -> int:
     if options.samples:
         write_samples(options.samples, planner.to_jsgf(world))
         return 0
-    said = yaml.safe_load((TESTS / 'sentences.yaml').read_text())
-    # Free text cannot be in a grammar.
-    commands = [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
-    commands = commands[:: options.every]
+    commands, others = held_out() if options.held_out else (of_tests(), OTHER)
+    commands, others = commands[:: options.every], others[:: options.every]
     try:
         suppress = None if options.raw else NoiseSuppressor().suppress
         whisper = FasterWhisper(options.whisper) if options.whisper else None
     except UserError as error:
         parser.error(str(error))
-    grammar = GrammarRecognizer(options.threshold, suppress=suppress)
+    threshold = ACCEPT_ALL if options.roc else options.threshold
+    grammar = GrammarRecognizer(threshold, suppress=suppress)
     listener = Listener(grammar, whisper)
     unknown = listener.set_grammar(planner.to_jsgf(world))
-    print(f'{len(commands)} commands, {len(OTHER)} others; unknown words: {unknown or "none"}')
+    print(f'{len(commands)} commands, {len(others)} others; unknown words: {unknown or "none"}')
     print(
-        f'{"voice":<18}{"right":>7}{"rejected":>10}{"wrong":>7}{"others taken":>14}'
-        f'{"stops":>7}{"CPU":>7}'
+        f'{"voice":<18}{"right":>7}{"article":>9}{"wrong":>7}{"rejected":>10}{"others taken":>14}'
+        f'{"for a stop":>12}{"stops":>7}{"CPU":>7}'
     )
     for name, words in voices.items():
-        row = measured(words, commands, planner, world, listener, options)
-        shares = [row.counts[kind] / len(commands) for kind in ('right', 'rejected', 'wrong')]
-        shares += [row.counts['taken'] / len(OTHER), row.counts['stop'] / len(STOPS)]
+        row = measured(words, commands, others, planner, world, listener, options)
+        shares = [row.counts[kind] / len(commands) for kind in KINDS_OF_COMMANDS]
+        shares += [row.counts[kind] / len(others) for kind in KINDS_OF_OTHERS]
+        shares.append(row.counts['stop'] / len(STOPS))
         print(
-            f'{name:<18}{shares[0]:>7.0%}{shares[1]:>10.0%}{shares[2]:>7.0%}{shares[3]:>14.0%}'
-            f'{shares[4]:>7.0%}{row.cpu_s / row.speech_s:>7.3f}'
+            f'{name:<18}{shares[0]:>7.0%}{shares[1]:>9.0%}{shares[2]:>7.0%}{shares[3]:>10.0%}'
+            f'{shares[4]:>14.0%}{shares[5]:>12.0%}{shares[6]:>7.0%}'
+            f'{row.cpu_s / row.speech_s:>7.3f}'
         )
+        for threshold in THRESHOLDS if options.roc else ():
+            counts = row.above(threshold)
+            right, taken = counts['right'] / len(commands), counts['taken'] / len(others)
+            stop = counts['taken for a stop'] / len(others)
+            print(f'{threshold:>18.1f}{right:>7.0%}{taken:>40.0%}{stop:>12.0%}')
     return 0
+
+
+def of_tests() -> Sequence[str]:
+    """Return the commands of the planner's tests, but for free text: no grammar can have that."""
+    said = yaml.safe_load((TESTS / 'sentences.yaml').read_text())
+    return [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
+
+
+def held_out() -> tuple[Sequence[str], Sequence[str]]:
+    """Return the commands and the other sentences of speech_held_out.yaml."""
+    said = yaml.safe_load(Path(__file__).with_name('speech_held_out.yaml').read_text())
+    return said['commands'], said['others']
 
 
 def synthesizer(text: str) -> list[str]:
@@ -190,8 +255,8 @@ def synthesizer(text: str) -> list[str]:
 
 
 def measured(
-    words: list[str], commands: list[str], planner: RulePlanner, world: World,
-    listener: Listener, options: argparse.Namespace,
+    words: list[str], commands: Sequence[str], others: Sequence[str], planner: RulePlanner,
+    world: World, listener: Listener, options: argparse.Namespace,
 ) -> Row:  # fmt: skip
     """
     Synthesize all sentences with a voice, recognize them, and count the results.
@@ -201,7 +266,9 @@ def measured(
     words
         The command of the voice, one of `VOICES`.
     commands
-        The sentences that are commands; `OTHER` and `STOPS` follow.
+        The sentences that are commands; `STOPS` follow.
+    others
+        Those that are not.
     planner, world
         Decide whether two sentences mean the same.
     listener
@@ -211,25 +278,74 @@ def measured(
 
     """
     row = Row()
-    for number, text in enumerate([*commands, *OTHER, *STOPS]):
+    for number, text in enumerate([*commands, *others, *STOPS]):
         sound = spoken(words, text, options.noise, number)
         begin_s = time.process_time()
-        heard, is_accepted, is_stop = recognized(listener, sound)
+        heard = recognized(listener, sound)
         row.cpu_s += time.process_time() - begin_s
         row.speech_s += duration_s(sound)
-        outcome = plan_of(planner, world, heard) if is_accepted else None
-        if text in STOPS:
-            kind = 'stop' if is_stop else 'missed'
-        elif text in OTHER:
-            kind = 'taken' if outcome is not None else 'left'
-        elif outcome is None:
-            kind = 'rejected'
-        else:
-            kind = 'right' if outcome == plan_of(planner, world, text) else 'wrong'
+        kind = kind_of(text, heard, planner, world, is_other=text in others)
         row.counts[kind] += 1
+        if kind not in ('rejected', 'left', 'missed'):
+            is_short_stop = heard.is_stop and len(heard.text.split()) <= SHORT_STOP
+            row.accepted.append((kind, math.inf if is_short_stop else heard.confidence))
         if options.list and kind not in ('right', 'left', 'stop'):
-            print(f'    {kind}: {text!r} -> {heard!r}')
+            print(f'    {kind}: {text!r} -> {heard.text!r} ({heard.confidence:.2f})')
     return row
+
+
+def kind_of(
+    text: str, heard: Spotted, planner: RulePlanner, world: World, *, is_other: bool
+) -> str:
+    """
+    Classify what was recognized.
+
+    Parameters
+    ----------
+    text
+        The sentence that was spoken.
+    heard
+        What was recognized.
+    planner, world
+        Decide whether two sentences mean the same.
+    is_other
+        Whether the sentence is not a command.
+
+    Returns
+    -------
+    str
+        One of `KINDS_OF_COMMANDS`; for other sentences one of `KINDS_OF_OTHERS`, or `left`; for a
+        stop `stop` or `missed`.
+
+    """
+    if text in STOPS:
+        return 'stop' if heard.is_stop else 'missed'
+    outcome = plan_of(planner, world, heard.text) if heard.is_accepted else None
+    if is_other:
+        if outcome is None:
+            return 'left'
+        return 'taken for a stop' if heard.is_stop else 'taken'
+    if outcome is None:
+        return 'rejected'
+    wanted = plan_of(planner, world, text)
+    if outcome == wanted:
+        return 'right'
+    return 'article' if without_articles(outcome) == without_articles(wanted) else 'wrong'
+
+
+def without_articles(steps: Steps | None) -> Steps | None:
+    """
+    Remove from a plan whether its objects are particular ones or any.
+
+    Parameters
+    ----------
+    steps
+        The plan, from `plan_of`.
+
+    """
+    if steps is None:
+        return None
+    return tuple((skill, DEFINITE.sub('', arguments)) for skill, arguments in steps)
 
 
 def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
@@ -320,7 +436,7 @@ def write_samples(folder: Path, grammar: str) -> None:
             (folder / name).write_bytes(wav_of(s16le(synthesized(VOICES[voice], text))))
 
 
-def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
+def recognized(listener: Listener, sound: bytes) -> Spotted:
     """
     Segment a sound into utterances and recognize them.
 
@@ -333,22 +449,24 @@ def recognized(listener: Listener, sound: bytes) -> tuple[str, bool, bool]:
 
     Returns
     -------
-    str, bool, bool
-        The words, whether all of them are accepted, and whether any utterance is a stop.
+    Spotted
+        The words of all utterances; they are accepted if all utterances are, and a stop if any is.
 
     """
     segmenter = UtteranceSegmenter()
-    texts, is_accepted, is_stop = [], True, False
+    found = []
     for piece in chunks(sound, 0.03):
         for utterance in segmenter.add(piece):
-            recognition = listener.hear(utterance).recognition
-            texts.append(recognition.text)
-            is_accepted = is_accepted and recognition.is_accepted
-            is_stop = is_stop or recognition.is_stop
-    return ' '.join(texts), is_accepted and bool(texts), is_stop
+            found.append(listener.hear(utterance).recognition)
+    return Spotted(
+        ' '.join(each.text for each in found),
+        bool(found) and all(each.is_accepted for each in found),
+        any(each.is_stop for each in found),
+        min((each.confidence for each in found), default=-math.inf),
+    )
 
 
-def plan_of(planner: RulePlanner, world: World, text: str) -> tuple[object, ...] | None:
+def plan_of(planner: RulePlanner, world: World, text: str) -> Steps | None:
     """
     Plan a sentence, in a form in which plans can be compared.
 

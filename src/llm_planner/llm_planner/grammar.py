@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 import re
 from typing import Any
@@ -61,6 +61,11 @@ class Grammar:
         Units by slot name: metres, degrees or seconds.
     texts
         Slots for free text: one word or more, whatever they are.
+    spoken
+        The texts of a list that a speech recogniser should expect, by slot name; by default all.
+        What is typed may be any text of the list.
+    weights
+        How likely a word is for a speech recogniser, in comparison with a word of weight 1.
 
     """
 
@@ -68,6 +73,8 @@ class Grammar:
     lists: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     numbers: Mapping[str, str] = field(default_factory=dict)
     texts: frozenset[str] = frozenset()
+    spoken: Mapping[str, Collection[str]] = field(default_factory=dict)
+    weights: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._by_first: dict[str, dict[str, list[tuple[list[str], Any]]]] = {}
@@ -214,11 +221,17 @@ class Grammar:
             The text of a grammar in JSGF 1.0.
 
         """
-        usable = {slot for slot, values in self.lists.items() if values} | {*self.numbers}
+        lists = {
+            slot: [text for text in values if text in self.spoken.get(slot, values)]
+            for slot, values in self.lists.items()
+        }
+        usable = {slot for slot, texts in lists.items() if texts} | {*self.numbers}
         pending = dict(self.rules)
         while True:
             more = {
-                n for n, phrase in pending.items() if _jsgf(phrase, usable) and n not in usable
+                name
+                for name, phrase in pending.items()
+                if name not in usable and self._jsgf(phrase, usable)
             }
             if not more:
                 break
@@ -228,30 +241,38 @@ class Grammar:
             lines += ['/**', *(f' * @example {example}' for example in shown), ' */']
         lines.append(f'public <command> = {command};')
         for rule, phrase in {**phrases, **self.rules}.items():
-            if text := _jsgf(phrase, usable):
+            if text := self._jsgf(phrase, usable):
                 lines.append(f'<{rule}> = {text};')
-        for slot, values in self.lists.items():
-            if values:
-                spoken = ' | '.join(' '.join(tokenized(text)) for text in values)
-                lines.append(f'<{slot}> = {spoken};')
+        for slot, texts in lists.items():
+            if texts:
+                said = [(' '.join(tokenized(text)), None) for text in texts]
+                lines.append(f'<{slot}> = {self._alternatives(said)};')
         for slot, unit in self.numbers.items():
             lines.append(jsgf_of(slot, unit))
         if self.numbers:
             lines.append(jsgf_digits())
         return '\n'.join(lines) + '\n'
 
+    def _jsgf(self, phrase: Phrase, usable: set[str]) -> str:
+        """Return a phrase in JSGF; empty if it requires a slot that is not usable."""
+        if isinstance(phrase, Word):
+            return '' if phrase.text == ',' else phrase.text
+        if isinstance(phrase, Slot):
+            return f'<{phrase.rule}>' if phrase.rule in usable else ''
+        if isinstance(phrase, Option):
+            inner = self._jsgf(phrase.part, usable)
+            return f'[{inner}]' if inner else '<NULL>'
+        parts = [self._jsgf(part, usable) for part in phrase.parts]
+        if isinstance(phrase, Choice):
+            weights = phrase.weights or (None,) * len(parts)
+            pairs = [(part, w) for part, w in zip(parts, weights, strict=True) if part]
+            return f'({self._alternatives(pairs)})' if pairs else ''
+        return ' '.join(part for part in parts if part != '<NULL>') if all(parts) else ''
 
-def _jsgf(phrase: Phrase, usable: set[str]) -> str:
-    """Return a phrase in JSGF; empty if it requires a slot that is not usable."""
-    if isinstance(phrase, Word):
-        return '' if phrase.text == ',' else phrase.text
-    if isinstance(phrase, Slot):
-        return f'<{phrase.rule}>' if phrase.rule in usable else ''
-    if isinstance(phrase, Option):
-        inner = _jsgf(phrase.part, usable)
-        return f'[{inner}]' if inner else '<NULL>'
-    parts = [_jsgf(part, usable) for part in phrase.parts]
-    if isinstance(phrase, Choice):
-        said = [part for part in parts if part]
-        return f'({" | ".join(said)})' if said else ''
-    return ' '.join(part for part in parts if part != '<NULL>') if all(parts) else ''
+    def _alternatives(self, said: Iterable[tuple[str, float | None]]) -> str:
+        """Join alternatives in JSGF, with their weights or else those of their first words."""
+        parts = []
+        for text, own in said:
+            weight = self.weights.get(text.partition(' ')[0]) if own is None else own
+            parts.append(text if weight is None else f'/{weight:g}/ {text}')
+        return ' | '.join(parts)

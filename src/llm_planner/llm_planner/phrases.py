@@ -4,7 +4,9 @@ Common notation of phrases for parsing and for speech recognition.
 
 A phrase is written like an expansion of JSGF (the Java Speech Grammar Format): words, `(a | b)`
 for alternatives, `[a]` for optional parts, and `{name}` for a slot, which stands for a rule, a
-list of words with their values, a number, or free text.
+list of words with their values, a number, or free text. `{name:rule}` names the rule of a slot if
+it is not that of the name. `(a | /0.1/ b)` says that b is a tenth as likely as a, which is for
+speech recognisers only.
 """
 
 from __future__ import annotations
@@ -20,7 +22,8 @@ __all__ = [
     'part_of', 'with_rules',
 ]  # fmt: skip
 
-_TOKEN = re.compile(r'\{\w+\}|[\[\]()|,]|[^\s\[\](){}|,]+')
+_TOKEN = re.compile(r'\{\w+(?::\w+)?\}|/[\d.]+/|[\[\]()|,]|[^\s\[\](){}|,]+')
+_WEIGHT = re.compile(r'/[\d.]+/')
 
 
 class GrammarError(UserError):
@@ -43,9 +46,10 @@ class Series:
 
 @dataclass(frozen=True)
 class Choice:
-    """Alternatives, of which one is required."""
+    """Alternatives, of which one is required, and how likely each is if that was said."""
 
     parts: tuple[Phrase, ...]
+    weights: tuple[float | None, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,7 @@ def part_of(phrase: Phrase) -> Iterator[Phrase]:
 
 def with_rules(phrase: Phrase, rules: Mapping[str, str]) -> Phrase:
     """
-    Return a copy of a phrase in which slots refer to other rules.
+    Return a copy of a phrase in which slots that name no rule refer to other rules.
 
     Parameters
     ----------
@@ -104,13 +108,14 @@ def with_rules(phrase: Phrase, rules: Mapping[str, str]) -> Phrase:
 
     """
     if isinstance(phrase, Slot):
-        return Slot(phrase.name, rules.get(phrase.name, phrase.rule))
+        is_named = phrase.rule != phrase.name
+        return phrase if is_named else Slot(phrase.name, rules.get(phrase.name, phrase.rule))
     if isinstance(phrase, Option):
         return Option(with_rules(phrase.part, rules))
     if isinstance(phrase, Series):
         return Series(tuple(with_rules(part, rules) for part in phrase.parts))
     if isinstance(phrase, Choice):
-        return Choice(tuple(with_rules(part, rules) for part in phrase.parts))
+        return Choice(tuple(with_rules(part, rules) for part in phrase.parts), phrase.weights)
     return phrase
 
 
@@ -126,12 +131,12 @@ def parse_phrase(text: str) -> Phrase:
     Returns
     -------
     Phrase
-        The syntax tree; each slot refers to the rule of the same name.
+        The syntax tree; each slot refers to its rule, or to that of the same name.
 
     Raises
     ------
     GrammarError
-        Brackets do not match, or an alternative is empty.
+        Brackets do not match, an alternative is empty, or a weight is not a positive number.
 
     """
     tokens = _TOKEN.findall(text)
@@ -143,12 +148,30 @@ def parse_phrase(text: str) -> Phrase:
 
 def _alternatives(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
     found: list[Phrase] = []
+    weights: list[float | None] = []
     while True:
+        weight = None
+        if at < len(tokens) and _WEIGHT.fullmatch(tokens[at]):
+            weight, at = _weight(tokens[at], text), at + 1
         part, at = _sequence(tokens, at, text)
         found.append(part)
+        weights.append(weight)
         if at >= len(tokens) or tokens[at] != '|':
-            return (found[0] if len(found) == 1 else Choice(tuple(found))), at
+            is_plain = len(found) == 1 and weight is None
+            return (found[0] if is_plain else Choice(tuple(found), tuple(weights))), at
         at += 1
+
+
+def _weight(token: str, text: str) -> float:
+    try:
+        weight = float(token.strip('/'))
+    except ValueError:
+        weight = 0.0
+    if weight <= 0.0:
+        raise GrammarError(
+            f"The phrase '{text}' has the weight '{token}': write one such as /0.1/."
+        )
+    return weight
 
 
 def _sequence(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
@@ -161,7 +184,10 @@ def _sequence(tokens: Sequence[str], at: int, text: str) -> tuple[Phrase, int]:
                 raise GrammarError(f"The phrase '{text}' has a '{token}' that is not closed.")
             parts.append(Option(inner) if token == '[' else inner)
         elif token[0] == '{':
-            parts.append(Slot(token[1:-1], token[1:-1]))
+            name, _, rule = token[1:-1].partition(':')
+            parts.append(Slot(name, rule or name))
+        elif _WEIGHT.fullmatch(token):
+            raise GrammarError(f"The phrase '{text}' has '{token}' not before an alternative.")
         else:
             parts.append(Word(token))
         at += 1

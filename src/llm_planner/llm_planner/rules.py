@@ -8,7 +8,7 @@ skill, and the error message quotes the part that was not understood.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 import difflib
 from typing import Any
 
@@ -29,8 +29,15 @@ _LONGEST = 500
 _REPAIRED_FROM = 4
 """The spelling of shorter words is not corrected."""
 _CLOSE = 0.8
+_WITHOUT_JOINT = 0.01
+"""The weight of the next clause without `and` or the like, for a speech recogniser."""
 _OPEN = ('place', 'class', 'classes')
-"""Lists of names; if a sentence matches except for a name, that name is reported as unknown."""
+"""Slots of names; if a sentence matches except for a name, that name is reported as unknown."""
+_PLACES = ('place', 'inside', 'surface', 'room')
+"""Lists of places: all, those that things are put into, those that they are put onto, rooms. What
+is typed may be any place, and a speech recogniser expects only the likely ones."""
+_NAMES = (*_OPEN, *_PLACES[1:])
+"""Lists of names."""
 
 
 class RulePlanner:
@@ -144,7 +151,8 @@ class RulePlanner:
         probe = grammar.to_jsgf('robot', '<VOID>', phrases)
         usable = [name for name in phrases if f'\n<{name}> = ' in probe]
         clause = f'({" | ".join(f"<{name}>" for name in usable)})'
-        command = f'<beginning>* {clause} ([<joint>] {clause})* <end>*'
+        joint = f'(<joint> | /{_WITHOUT_JOINT:g}/ <NULL>)'
+        command = f'<beginning>* {clause} ({joint} {clause})* <end>*'
         examples = worlds_examples(self.skills, [in_words(name) for name in world.place_names])
         return grammar.to_jsgf('robot', command, phrases, examples)
 
@@ -176,7 +184,7 @@ class RulePlanner:
 
     def _grammar(self, world: World) -> tuple[Grammar, Grammar, frozenset[str]]:
         """Return the grammar of a world, one that accepts any words as names, and all words."""
-        key = (tuple(world.places), world.rooms)
+        key = (tuple(world.places), world.rooms, world.containers)
         if key not in self._grammars:
             vocabulary = self.skills.vocabulary
             lists: dict[str, Mapping[str, Any]] = {
@@ -184,7 +192,8 @@ class RulePlanner:
                 for name, values in vocabulary.items()
                 if name != 'place'
             }
-            lists['place'] = spoken_places(world, vocabulary.get('place', {}))
+            places = spoken_places(world, vocabulary.get('place', {}))
+            lists |= dict.fromkeys(_PLACES, places)
             numbers, texts = {}, set()
             for skill in self.skills:
                 for argument in skill.arguments.values():
@@ -198,9 +207,11 @@ class RulePlanner:
                     elif argument.kind == 'text':
                         texts.add(slot)
             rules = self.skills.rules
-            exact = Grammar(rules, lists, numbers, frozenset(texts))
-            closed = {name: each for name, each in lists.items() if name not in _OPEN}
-            loose = Grammar(rules, closed, numbers, frozenset((*texts, *_OPEN)))
+            spoken = {kind: _texts_of(kind, places, world) for kind in _PLACES}
+            weights = self.skills.weights
+            exact = Grammar(rules, lists, numbers, frozenset(texts), spoken, weights)
+            closed = {name: each for name, each in lists.items() if name not in _NAMES}
+            loose = Grammar(rules, closed, numbers, frozenset((*texts, *_NAMES)))
             self._grammars[key] = exact, loose, _all_words(exact, self._sayings)
         return self._grammars[key]
 
@@ -254,6 +265,17 @@ class RulePlanner:
             reading.read(clause, text)
         dialogue.last_object, dialogue.last_place = reading.last_object, reading.last_place
         return Plan(text, tuple(reading.steps))
+
+
+def _texts_of(kind: str, places: Mapping[str, Sequence[str]], world: World) -> list[str]:
+    """Return the spoken texts that can mean a place of a kind, one of `_PLACES`."""
+    meant: Mapping[str, Collection[str]] = {
+        'place': world.place_names,
+        'inside': (*world.containers, *world.rooms),
+        'surface': {*world.places} - {*world.containers},
+        'room': world.rooms,
+    }
+    return [text for text, names in places.items() if not {*names}.isdisjoint(meant[kind])]
 
 
 def _mended(token: str, words: frozenset[str]) -> str:

@@ -142,12 +142,15 @@ class Skills:
         Phrases that are parts of others, by name.
     vocabulary
         Words by the name of their list and the value that they stand for.
+    weights
+        How likely words are for a speech recogniser, in comparison with others; 1 by default.
 
     """
 
     skills: Mapping[str, Skill]
     rules: Mapping[str, Phrase] = field(default_factory=dict)
     vocabulary: Mapping[str, Mapping[str, tuple[str, ...]]] = field(default_factory=dict)
+    weights: Mapping[str, float] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Skill:
         return self.skills[name]

@@ -40,7 +40,10 @@ _SKILL_KEYS = (
     'summary', 'arguments', 'server', 'without', 'needs', 'leaves', 'timeout', 'attempts', 'steps',
     'does', 'says', 'phrases',
 )  # fmt: skip
-_PARTS = ('rules', 'vocabulary', 'skills')
+_PARTS = ('rules', 'vocabulary', 'weights', 'skills')
+_KINDS_OF_PLACES = ('inside', 'surface', 'room')
+"""Lists of places that come from the world, beside `place`."""
+_WEIGHTS = (0.001, 1000.0)
 _MOST_TIMEOUT_S = 3600.0
 
 
@@ -81,20 +84,25 @@ def load_skills(path: Path) -> Skills:
     """
     top = load_table(path)
     top.allow(*_PARTS)
-    given, lists, tables = (top.table(name) for name in _PARTS)
+    given, lists, weights, tables = (top.table(name) for name in _PARTS)
     rules = {name: _phrase(given.value(name), given.at(name)) for name in given.names}
     for name in _NEEDED_RULES:
         if name not in rules:
             raise given.place.missing(name)
     vocabulary = {name: _words(lists.table(name)) for name in lists.names}
     found = Skills(
-        {name: _skill(name, tables.table(name)) for name in tables.names}, rules, vocabulary
+        {name: _skill(name, tables.table(name)) for name in tables.names},
+        rules,
+        vocabulary,
+        {word: weights.number(word, None, _WEIGHTS) for word in weights.names},
     )
     for skill in found:
         tables.at(skill.name).checked(partial(_check_steps, skill, found))
+        tables.at(skill.name).checked(partial(_check_slots, skill, found))
+    known = {*rules, *vocabulary, *_KINDS_OF_PLACES}
     for name, phrase in rules.items():
         for part in part_of(phrase):
-            if isinstance(part, Slot) and part.rule not in {*rules, *vocabulary}:
+            if isinstance(part, Slot) and part.rule not in known:
                 raise given.at(name).error(
                     f"{given.at(name).name} has the slot '{part.rule}', which is not defined."
                 )
@@ -214,6 +222,19 @@ def _check_steps(skill: Skill, skills: Skills) -> None:
                 raise UserError(
                     f"the step '{step.skill}' of the skill '{skill.name}' takes {name} from "
                     f'{source}, and one of them is not an argument.'
+                )
+
+
+def _check_slots(skill: Skill, skills: Skills) -> None:
+    """Validate that the slots of phrases are arguments, or refer to rules or word lists."""
+    own = {f'{skill.name}_{name}' for name in skill.arguments}
+    known = {*skills.rules, *skills.vocabulary, *_KINDS_OF_PLACES, *own}
+    for saying in skill.sayings:
+        for part in part_of(saying.phrase):
+            if isinstance(part, Slot) and part.rule not in known:
+                raise UserError(
+                    f"a phrase of the skill '{skill.name}' has the slot '{part.rule}', which is "
+                    f'not defined. {did_you_mean(part.rule, known)}'
                 )
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from llm_planner.grammar import Grammar, tokenized
-from llm_planner.phrases import GrammarError, parse_phrase
+from llm_planner.phrases import GrammarError, parse_phrase, with_rules
 import pytest
 
 GRAMMAR = Grammar(
@@ -97,11 +97,44 @@ def test_texts_are_as_short_as_possible_first() -> None:
     assert read('say {text} [then go]', 'say hello then go')[0] == {'text': 'hello'}
 
 
-@pytest.mark.parametrize('phrase', ['(a | b', 'a ]', '[a', '(a |)', '', '( )', 'a | '])
+@pytest.mark.parametrize(
+    'phrase',
+    [
+        *('(a | b', 'a ]', '[a', '(a |)', '', '( )', 'a | '),
+        *('(a | /0/ b)', '/./ a', 'a /2/ b', '(/2/)'),
+    ],
+)
 def test_phrases_that_cannot_be_read(phrase: str) -> None:
     """The sentence quotes the phrase."""
     with pytest.raises(GrammarError, match='The phrase'):
         parse_phrase(phrase)
+
+
+def test_a_slot_can_name_its_rule() -> None:
+    """The value is bound to the name of the slot; rules of arguments do not replace it."""
+    assert read('take {first:thing}', 'take red mug') == [
+        {'first': (('colour', 'red'), ('class', 'mug'))}
+    ]
+    phrase = with_rules(parse_phrase('{a} to {b:class}'), {'a': 'thing', 'b': 'distance'})
+    assert phrase == parse_phrase('{a:thing} to {b:class}')
+
+
+def test_jsgf_for_speech_has_weights_and_likely_texts() -> None:
+    """A weight belongs to an alternative that begins with its word; all texts can be typed."""
+    grammar = Grammar(
+        {
+            'name': parse_phrase('[(the | my)] {class}'),
+            'where': parse_phrase('(on | /0.1/ the side of) {class}'),
+        },
+        {'class': {'mug': 'mug', 'cup': 'mug', 'bin': 'bin'}},
+        spoken={'class': ['mug', 'bin']},
+        weights={'the': 20.0, 'bin': 0.5},
+    )
+    lines = grammar.to_jsgf('robot', '<name>', {}).splitlines()
+    assert '<name> = [(/20/ the | my)] <class>;' in lines
+    assert '<class> = mug | /0.5/ bin;' in lines
+    assert '<where> = (on | /0.1/ the side of) <class>;' in lines
+    assert any(grammar.matches(parse_phrase('{name}'), ['the', 'cup']))
 
 
 def test_jsgf() -> None:

@@ -193,6 +193,31 @@ def test_the_grammar_for_speech_has_what_can_be_said() -> None:
     assert '<place>' not in PLANNER.to_jsgf(World())
 
 
+def test_the_grammar_for_speech_expects_things_where_they_can_be() -> None:
+    """In a container or a room, on anything else; what is typed may name any place."""
+    lines = PLANNER.to_jsgf(replace(WORLD, containers=('kitchen_bin',))).splitlines()
+    texts = {
+        name: text.rstrip(';').split(' | ')
+        for name, _, text in (line.partition(' = ') for line in lines)
+    }
+    assert {'bin', 'kitchen bin', 'trash', 'hall', 'bedroom'} <= {*texts['<inside>']}
+    assert not {'bed', 'desk'} & {*texts['<inside>']}
+    assert {'bed', 'table'} <= {*texts['<surface>']}
+    assert not {'bin', 'kitchen'} & {*texts['<surface>']}
+    rooms = {'hall', 'kitchen', 'bedroom', 'living room', 'lounge', 'livingroom'}
+    assert {*texts['<room>']} == rooms
+    assert {'bin', 'bed', 'kitchen'} <= {*texts['<place>']}
+    assert isinstance(plan('put the red mug into the bed'), Plan)
+    assert isinstance(plan('put the red mug on the bin'), Plan)
+
+
+def test_the_grammar_for_speech_has_weights() -> None:
+    """Articles are likelier than other words, and clauses have something between them."""
+    text = PLANNER.to_jsgf(WORLD)
+    assert '<article> = /100/ the | that' in text
+    assert '(<joint> | /0.01/ <NULL>)' in text
+
+
 def test_the_grammar_shows_examples() -> None:
     """Each is understood, each place is among them, and without places there are others."""
     examples = re.findall(r' \* @example (.+)', PLANNER.to_jsgf(WORLD))

@@ -27,6 +27,7 @@ def test_the_own_file() -> None:
     assert skills.simple('bring') == {'find', 'go_to', 'pick', 'come_back', 'hand_over'}
     assert {each.name for each in skills if not each.sayings} == {'pick', 'tell_count'}
     assert all(skill.steps or skill.does for skill in skills)
+    assert skills.weights['the'] > 1.0
 
 
 def test_each_simple_skill_is_implemented() -> None:
@@ -57,6 +58,8 @@ CHANGES: list[tuple[tuple[str, ...], Any, str]] = [
         'must be one of place, places, ',
     ),
     (('skills', 'go_to', 'phrases'), ['go (to'], 'is not closed'),
+    (('skills', 'go_to', 'phrases'), ['go to {target:moon}'], "the slot 'moon', which is not"),
+    (('skills', 'go_to', 'phrases'), ['go (to | /0/ at) {target}'], 'write one such as /0.1/'),
     (('skills', 'go_to', 'phrases'), [{'go': {'speed': 3}}], "unknown key 'speed'"),
     (('skills', 'go_to', 'does'), 'go to {place}', 'unknown argument'),
     (('skills', 'go_to', 'server'), {'action': 'a', 'service': 'b'}, 'two servers'),
@@ -77,6 +80,8 @@ CHANGES: list[tuple[tuple[str, ...], Any, str]] = [
         {'red': 'red'},
         "vocabulary.colour.red must be a list of words, but is 'red'",
     ),
+    (('weights', 'the'), 0, 'weights.the must be a finite number from 0.001 to 1000, but is 0'),
+    (('weights', 'the'), 'often', "but is 'often'"),
     (('skils',), {}, "Did you mean 'skills'?"),
 ]
 

@@ -112,6 +112,16 @@ def test_compounds_are_pronounced_as_their_halves() -> None:
     assert made.set_grammar(grammar % 'sidexyzzy') == ['sidexyzzy']
 
 
+@pytest.mark.parametrize('likelier', ['two', 'too'])
+def test_weights_decide_between_words_that_sound_the_same(likelier: str) -> None:
+    """The likelier one is recognized."""
+    made = GrammarRecognizer()
+    words = ' | '.join(f'/{100 if word == likelier else 1}/ {word}' for word in ('two', 'too'))
+    assert made.set_grammar(f'#JSGF V1.0; grammar g; public <c> = go ({words}) the kitchen;') == []
+    [utterance] = utterances(read_wav(SPEECH / 'go_to_the_kitchen.slt.wav'))
+    assert made.recognize(utterance).text == f'go {likelier} the kitchen'
+
+
 def test_a_dictionary_adds_words() -> None:
     """What it has can be said."""
     made = GrammarRecognizer(dictionary={'kitshen': 'K IH CH AH N'})

@@ -44,6 +44,29 @@ def test_unknown_words_are_left_out() -> None:
     assert {word for arcs in network.arcs for word in arcs} == {'go', 'to', 'the', 'hall'}
 
 
+@pytest.mark.parametrize(
+    ('rule', 'words', 'expected'),
+    [
+        ('/3/ a | b', '', {'a': 3.0, 'b': 1.0}),
+        ('x (/4/ <p> | c)', 'x', {'one': 4.0, 'two': 8.0, 'c': 1.0}),
+        ('x (a | /0.1/ <NULL>) b', 'x', {'a': 1.0, 'b': 0.1}),
+        ('x (/2/ a b | /5/ a c)', 'x', {'a': 5.0}),
+        ('x (/2/ a | b)*', 'x a', {'a': 2.0, 'b': 1.0, '': 1.0}),
+        ('x (/2/ a b | c) | y (a b | c)', 'x', {'a': 2.0, 'c': 1.0}),
+        ('x (/2/ a b | c) | y (a b | c)', 'y', {'a': 1.0, 'c': 1.0}),
+    ],
+)
+def test_weights(rule: str, words: str, expected: dict[str, float]) -> None:
+    """A weight belongs to the first words of its alternative, the largest one counts."""
+    grammar = f'{HEAD}public <c> = {rule}; <p> = one | /2/ two;'
+    network = compile_jsgf(grammar)
+    state = 0
+    for word in words.split():
+        state = network.arcs[state][word]
+    end = {'': network.ends[state]} if state in network.finals else {}
+    assert {**network.weights[state], **end} == pytest.approx(expected)
+
+
 def test_equal_ends_are_shared() -> None:
     """The object of sixty commands stands in the network once."""
     verbs = ' | '.join(f'verb{number} the <object>' for number in range(60))
@@ -76,6 +99,8 @@ def test_the_commands_of_the_robot() -> None:
         (f'{HEAD}public <a> = b <c>; <c> = d [<a>];', 'refers to itself'),
         (f'{HEAD}import <other.*>; public <a> = b;', 'is not a rule'),
         (f'{HEAD}public <a> = <VOID>;', 'accepts no sentence'),
+        (f'{HEAD}public <a> = /0/ b | c;', 'not a positive number'),
+        (f'{HEAD}public <a> = b /2/ | c;', 'out of place'),
     ],
 )
 def test_what_is_no_grammar(grammar: str, reason: str) -> None:

@@ -37,7 +37,12 @@ _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
 _GRAMMAR_WEIGHT = 3.0
-"""Language weight: how much the word probabilities of the grammar count against the sound."""
+"""
+Language weight: how much the word probabilities of the grammar count against the sound. The `lw`
+of pocketsphinx has no effect on a grammar that comes from a program.
+"""
+_PHONE_WEIGHT = 3.0
+"""Language weight of the phone loop."""
 _SHORT_STOP = 4
 """
 Maximum number of words of a sentence that stops the robot however badly it fits; a longer one may
@@ -146,7 +151,7 @@ class GrammarRecognizer:
         self._suppress = suppress
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
         # A best-path search through the lattice could end anywhere in the grammar.
-        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_GRAMMAR_WEIGHT)
+        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
@@ -249,17 +254,20 @@ class GrammarRecognizer:
     def _add(self, search: str, network: WordNetwork) -> None:
         """Create a decoder search from a word network; it replaces one of the same name."""
         last = len(network.arcs)
-        # All words at a state are equally likely, and so is the end of the sentence.
-        shares = [
-            1.0 / (len(words) + (state in network.finals))
-            for state, words in enumerate(network.arcs)
-        ]
-        arcs = [
-            (state, target, shares[state], word)
-            for state, words in enumerate(network.arcs)
-            for word, target in words.items()
-        ]
-        ends = [(state, last, shares[state]) for state in network.finals]
+        # What can come at a state has probabilities that sum up to 1: words in proportion to their
+        # weights, and the end of a command as likely as all words together.
+        power = _GRAMMAR_WEIGHT if search == _COMMANDS else 1.0
+        arcs, ends = [], []
+        for state, words in enumerate(network.arcs):
+            weights = network.weights[state]
+            on = sum(weights.values())
+            end = (on or 1.0) if search == _COMMANDS else 1.0
+            total = on + end if state in network.finals else on
+            arcs += [
+                (state, words[word], (weights[word] / total) ** power, word) for word in words
+            ]
+            if state in network.finals:
+                ends.append((state, last, (end / total) ** power))
         fsg = self._decoder.create_fsg(search, 0, last, [*arcs, *ends])
         self._decoder.add_fsg(search, fsg)
         self._decoder.activate_search(search)

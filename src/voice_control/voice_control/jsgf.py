@@ -8,14 +8,16 @@ becomes a nondeterministic automaton (Thompson's construction; see Hopcroft, Mot
 Introduction to Automata Theory, chapter 3), and then a minimal deterministic one. Words that
 cannot be pronounced are left out on the way, with everything that requires them.
 
-JSGF: https://www.w3.org/TR/jsgf/. Weights and tags are ignored; imports and recursive rules are
-rejected.
+JSGF: https://www.w3.org/TR/jsgf/. A weight multiplies how likely the first words of its
+alternative are; all words that can come next are equally likely otherwise. Tags are ignored;
+imports and recursive rules are rejected.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+import math
 import re
 
 from voice_control.recognition import RecognizerError
@@ -60,7 +62,7 @@ def compile_jsgf(jsgf: str, is_known: Callable[[str], bool] = lambda _: True) ->
     network = compiler.network(public)
     if not network.finals:
         raise RecognizerError('The grammar accepts no sentence.')
-    found = WordNetwork(network.arcs, network.finals, tuple(compiler.unknown))
+    found = replace(network, unknown=tuple(compiler.unknown))
     documentation = ' '.join(_DOCUMENTATION.findall(jsgf))
     examples = [' '.join(each.split()) for each in _EXAMPLE.findall(documentation)]
     return replace(found, shown=tuple(each for each in examples if found.accepts(each)))
@@ -86,7 +88,7 @@ def _read(jsgf: str) -> tuple[dict[str, list[str]], str]:
             raise RecognizerError(
                 f'"{" ".join(statement)[:60]}" is not a rule such as "<a> = b;".'
             )
-        rules[name] = [each for each in body if each and each[0] not in '/{']
+        rules[name] = [each for each in body if each and each[0] != '{']
         public = public or (name if is_public else '')
         statement = []
     if statement:
@@ -131,16 +133,18 @@ class _Automaton:
     compiler: _Compiler
     rule: str
     moves: Moves = field(default_factory=list)
-    """For each state, words with their target states; an empty word is an epsilon move."""
+    """For each state, words with target states and weights; an empty word is an epsilon move."""
 
     def _copy(self, network: WordNetwork) -> tuple[int, int]:
         """Add a copy of the states of another rule; return the first and the last one."""
         states = [self._state() for _ in network.arcs]
         last = self._state()
-        for state, arcs in zip(states, network.arcs, strict=True):
-            self.moves[state] = [(word, states[target]) for word, target in arcs.items()]
-        for state in network.finals:
-            self.moves[states[state]].append(('', last))
+        for state, arcs, weights in zip(states, network.arcs, network.weights, strict=True):
+            self.moves[state] = [
+                (word, states[target], weights[word]) for word, target in arcs.items()
+            ]
+        for state, weight in network.ends.items():
+            self.moves[states[state]].append(('', last, weight))
         return states[0], last
 
     def _state(self) -> int:
@@ -153,19 +157,38 @@ class _Automaton:
         """Parse up to a closing bracket or the end; return first and last state, and its index."""
         first, last = self._state(), self._state()
         while True:
+            weight = 1.0
+            if at < len(tokens) and tokens[at][0] == '/':
+                weight = self._weight(tokens[at])
+                at += 1
             begin, end, at = self._sequence(tokens, at)
-            self.moves[first].append(('', begin))
-            self.moves[end].append(('', last))
+            self._go(first, begin, weight)
+            self._go(end, last)
             if at == len(tokens) or tokens[at] != '|':
                 return first, last, at
             at += 1
+
+    def _go(self, source: int, target: int, weight: float = 1.0) -> None:
+        """Add an epsilon move."""
+        self.moves[source].append(('', target, weight))
+
+    def _weight(self, token: str) -> float:
+        try:
+            weight = float(token.strip('/'))
+        except ValueError:
+            weight = 0.0
+        if not 0.0 < weight < math.inf:
+            raise RecognizerError(
+                f'The weight {token} in {self.rule} is not a positive number such as /2/.'
+            )
+        return weight
 
     def _sequence(self, tokens: list[str], at: int) -> tuple[int, int, int]:
         first = last = self._state()
         count = 0
         while at < len(tokens) and tokens[at] not in ('|', ')', ']'):
             begin, end, at = self._item(tokens, at)
-            self.moves[last].append(('', begin))
+            self._go(last, begin)
             last = end
             count += 1
         if not count:
@@ -182,8 +205,8 @@ class _Automaton:
                 raise RecognizerError(f'A "{token}" in {self.rule} is not closed.')
             at += 1
             if token == '[':
-                self.moves[first].append(('', last))
-        elif token in ('*', '+', '=', ')', ']'):
+                self._go(first, last)
+        elif token in ('*', '+', '=', ')', ']') or token[0] == '/':
             raise RecognizerError(f'A "{token}" in {self.rule} is out of place.')
         elif token.startswith('<'):
             first, last = self._reference(token)
@@ -191,10 +214,11 @@ class _Automaton:
             first, last = self._words(token.strip('"').lower().split())
         while at < len(tokens) and tokens[at] in ('*', '+'):
             begin, end = self._state(), self._state()
-            self.moves[begin].append(('', first))
-            self.moves[last] += [('', first), ('', end)]
+            self._go(begin, first)
+            self._go(last, first)
+            self._go(last, end)
             if tokens[at] == '*':
-                self.moves[begin].append(('', end))
+                self._go(begin, end)
             first, last, at = begin, end, at + 1
         return first, last, at
 
@@ -211,7 +235,7 @@ class _Automaton:
         for word in words:
             following = self._state()
             if self.compiler.is_known(word):
-                self.moves[last].append((word, following))
+                self.moves[last].append((word, following, 1.0))
             else:
                 self.compiler.unknown[word] = None
             last = following

@@ -4,19 +4,25 @@ Minimal networks of words that a decoder can search.
 
 A nondeterministic automaton over words becomes a deterministic one (subset construction), and then
 the minimal one (Moore's partition refinement); see Hopcroft, Motwani and Ullman, Introduction to
-Automata Theory, chapters 2 and 4.
+Automata Theory, chapters 2 and 4. Both keep the weights of the moves: of several moves with the
+same word, the largest weight counts.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 __all__ = ['Moves', 'WordNetwork', 'minimal_network']
 
-Moves = list[list[tuple[str, int]]]
-"""For each state of an automaton, words with their target states."""
-_Table = list[dict[str, int]]
+Moves = list[list[tuple[str, int, float]]]
+"""For each state of an automaton, words with their target states and weights."""
+_Table = list[dict[str, tuple[int, float]]]
+"""For each state of a deterministic automaton, the target state and the weight of each word."""
+_Ends = dict[int, float]
+"""The weights of the final states."""
+_Subset = frozenset[tuple[int, float]]
+"""States of a nondeterministic automaton, each with the weight of the way to it since a word."""
 
 
 @dataclass(frozen=True)
@@ -35,6 +41,10 @@ class WordNetwork:
     shown
         Sentences that the grammar itself gives as examples (`@example` in a documentation
         comment), as far as the network accepts them.
+    weights
+        For each state, the weight of each word: how much likelier it is than one of weight 1.
+    ends
+        For each final state, the weight of the end of the sentence.
 
     """
 
@@ -42,6 +52,8 @@ class WordNetwork:
     finals: frozenset[int]
     unknown: tuple[str, ...] = ()
     shown: tuple[str, ...] = ()
+    weights: tuple[Mapping[str, float], ...] = ()
+    ends: Mapping[int, float] = field(default_factory=dict)
 
     def accepts(self, text: str) -> bool:
         """
@@ -68,7 +80,8 @@ def minimal_network(moves: Moves, first: int, last: int) -> WordNetwork:
     Parameters
     ----------
     moves
-        The moves from each state; a move with an empty word is an epsilon move.
+        The moves from each state; a move with an empty word is an epsilon move, whose weight
+        counts for the words behind it.
     first, last
         The start state and the final state.
 
@@ -81,61 +94,65 @@ def minimal_network(moves: Moves, first: int, last: int) -> WordNetwork:
     return _minimal(*_deterministic(moves, first, last))
 
 
-def _deterministic(moves: Moves, first: int, last: int) -> tuple[_Table, set[int]]:
+def _deterministic(moves: Moves, first: int, last: int) -> tuple[_Table, _Ends]:
     """Build the equivalent deterministic automaton: the arcs of each state, and final states."""
-    free: list[frozenset[int] | None] = [None] * len(moves)
+    free: list[_Subset | None] = [None] * len(moves)
 
-    def reached(state: int) -> frozenset[int]:
+    def reached(state: int) -> _Subset:
         """Return the epsilon closure of a state: its states with words, and the last one."""
         found = free[state]
         if found is None:
-            seen, todo = {state}, [state]
-            while todo:
-                for word, target in moves[todo.pop()]:
-                    if not word and target not in seen:
-                        seen.add(target)
+            ways, todo = {state: 1.0}, [state]
+            for each in todo:
+                for word, target, weight in moves[each]:
+                    if not word and target not in ways:
+                        ways[target] = ways[each] * weight
                         todo.append(target)
             found = free[state] = frozenset(
-                each for each in seen if each == last or any(word for word, _ in moves[each])
+                (each, weight)
+                for each, weight in ways.items()
+                if each == last or any(word for word, _, _ in moves[each])
             )
         return found
 
     start = reached(first)
     numbers, todo = {start: 0}, [start]
     table: _Table = [{}]
-    finals: set[int] = {0} if last in start else set()
+    ends: _Ends = {}
     while todo:
         subset = todo.pop()
-        targets: dict[str, set[int]] = {}
-        for state in subset:
-            for word, target in moves[state]:
+        number = numbers[subset]
+        targets: dict[str, set[tuple[int, float]]] = {}
+        weights: dict[str, float] = {}
+        for state, before in subset:
+            if state == last:
+                ends[number] = max(ends.get(number, 0.0), before)
+            for word, target, weight in moves[state]:
                 if word:
+                    weights[word] = max(weights.get(word, 0.0), before * weight)
                     targets.setdefault(word, set()).update(reached(target))
-        arcs = table[numbers[subset]]
         for word, states in targets.items():
             following = frozenset(states)
             if following not in numbers:
                 numbers[following] = len(table)
                 table.append({})
                 todo.append(following)
-                if last in following:
-                    finals.add(numbers[following])
-            arcs[word] = numbers[following]
-    return table, finals
+            table[number][word] = numbers[following], weights[word]
+    return table, ends
 
 
-def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
+def _minimal(table: _Table, ends: _Ends) -> WordNetwork:
     """Merge equivalent states, and remove those that lead nowhere."""
-    useful = _useful(table, finals)
-    table = [{word: target for word, target in arcs.items() if target in useful} for arcs in table]
-    classes = [int(state in finals) for state in range(len(table))]
+    useful = _useful(table, {*ends})
+    table = [{word: arc for word, arc in arcs.items() if arc[0] in useful} for arcs in table]
+    classes = [0] * len(table)
     count = 0
     while True:
         signatures: dict[tuple[object, ...], int] = {}
         refined = []
         for state, arcs in enumerate(table):
-            ways = frozenset((word, classes[target]) for word, target in arcs.items())
-            signature = (classes[state], ways)
+            ways = frozenset((word, classes[target], w) for word, (target, w) in arcs.items())
+            signature = (classes[state], ends.get(state), ways)
             refined.append(signatures.setdefault(signature, len(signatures)))
         classes = refined
         if len(signatures) == count:
@@ -145,19 +162,21 @@ def _minimal(table: _Table, finals: set[int]) -> WordNetwork:
     for state in reached:
         order.setdefault(classes[state], len(order))
     arcs_of: list[dict[str, int]] = [{} for _ in order]
+    weights_of: list[dict[str, float]] = [{} for _ in order]
     for state in reached:
-        arcs_of[order[classes[state]]] = {
-            word: order[classes[target]] for word, target in table[state].items()
-        }
-    ends = frozenset(order[classes[state]] for state in finals if classes[state] in order)
-    return WordNetwork(tuple(arcs_of), ends)
+        number = order[classes[state]]
+        for word, (target, weight) in table[state].items():
+            arcs_of[number][word] = order[classes[target]]
+            weights_of[number][word] = weight
+    kept = {order[classes[state]]: w for state, w in ends.items() if classes[state] in order}
+    return WordNetwork(tuple(arcs_of), frozenset(kept), weights=tuple(weights_of), ends=kept)
 
 
 def _useful(table: _Table, finals: set[int]) -> set[int]:
     """Compute the states from which a final one is reachable."""
     sources: dict[int, set[int]] = {}
     for state, arcs in enumerate(table):
-        for target in arcs.values():
+        for target, _ in arcs.values():
             sources.setdefault(target, set()).add(state)
     seen, todo = set(finals), list(finals)
     while todo:
@@ -173,7 +192,7 @@ def _in_order(table: _Table) -> Iterator[int]:
     seen, todo = {0}, [0]
     for state in todo:
         yield state
-        for target in table[state].values():
+        for target, _ in table[state].values():
             if target not in seen:
                 seen.add(target)
                 todo.append(target)
