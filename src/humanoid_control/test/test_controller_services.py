@@ -7,11 +7,16 @@ from collections.abc import Iterator
 from typing import Any
 
 from controller_manager_msgs.srv import (
+    CleanupController,
+    ConfigureController,
     ListControllers,
     ListControllerTypes,
     ListHardwareComponents,
     ListHardwareInterfaces,
+    LoadController,
+    SetHardwareComponentState,
     SwitchController,
+    UnloadController,
 )
 from humanoid_common.testing.ros import ros_sandbox, RosSandbox
 from humanoid_control.controllers import (
@@ -25,6 +30,7 @@ from humanoid_control.hosting.controller_services import controllers_of, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_robot import MockRobot
 from humanoid_control.testing import JOINTS, LIMITS, observed
+from lifecycle_msgs.msg import State
 import pytest
 
 LEFT, RIGHT = 'left_arm_controller', 'right_arm_controller'
@@ -172,7 +178,7 @@ class World:
         self._ros, self._node = ros, ros.observer()
         ros.start(MockRobot, parameters)
 
-    def ask(self, kind: Any, name: str, **request: Any) -> Any:
+    def ask(self, kind: Any, name: str, /, **request: Any) -> Any:
         """Call a service."""
         client = self._node.create_client(kind, name)
         self._ros.wait_until(client.service_is_ready, 60.0, name)
@@ -214,6 +220,53 @@ def test_services(ros: RosSandbox) -> None:
     assert (answer.ok, answer.message) == (True, '')
     controllers = world.ask(ListControllers, 'controller_manager/list_controllers').controller
     assert {each.name: each.state for each in controllers}['head_controller'] == 'inactive'
+
+
+@pytest.mark.parametrize(
+    ('kind', 'service', 'name', 'ok', 'told'),
+    [
+        (LoadController, 'load_controller', 'head_controller', False, 'are part of it'),
+        (LoadController, 'load_controller', 'head_controler', False, "'head_controller'?"),
+        (UnloadController, 'unload_controller', 'head_controller', False, 'are part of it'),
+        (CleanupController, 'cleanup_controller', 'head_controller', False, 'are part of it'),
+        (ConfigureController, 'configure_controller', 'head_controller', False, 'is active'),
+        (ConfigureController, 'configure_controller', 'stop', True, ''),
+        (ConfigureController, 'configure_controller', 'x', False, "no controller 'x'"),
+    ],
+)
+def test_what_cannot_be_loaded_or_unloaded(
+    ros: RosSandbox,
+    capfd: pytest.CaptureFixture[str],
+    kind: Any,
+    service: str,
+    name: str,
+    ok: bool,
+    told: str,
+) -> None:
+    """Spawners are answered, and the log says why nothing changes."""
+    world = World(ros)
+    assert world.ask(kind, f'controller_manager/{service}', name=name).ok == ok
+    assert told in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ('name', 'state', 'ok'),
+    [
+        ('humanoid', State(id=State.PRIMARY_STATE_ACTIVE), True),
+        ('humanoid', State(label='active'), True),
+        ('humanoid', State(id=State.PRIMARY_STATE_INACTIVE), False),
+        ('other', State(label='active'), False),
+    ],
+)
+def test_hardware_is_always_active(ros: RosSandbox, name: str, state: State, ok: bool) -> None:
+    """It may be asked to be so."""
+    answer = World(ros).ask(
+        SetHardwareComponentState,
+        'controller_manager/set_hardware_component_state',
+        name=name,
+        target_state=state,
+    )
+    assert (answer.ok, answer.state.label) == (ok, 'active')
 
 
 def test_hardware(ros: RosSandbox) -> None:

@@ -10,11 +10,17 @@ from typing import Any
 
 from controller_manager_msgs.msg import ControllerState, HardwareComponentState, HardwareInterface
 from controller_manager_msgs.srv import (
+    CleanupController,
+    ConfigureController,
     ListControllers,
     ListControllerTypes,
     ListHardwareComponents,
     ListHardwareInterfaces,
+    LoadController,
+    ReloadControllerLibraries,
+    SetHardwareComponentState,
     SwitchController,
+    UnloadController,
 )
 from humanoid_common.naming import did_you_mean, shortened
 from humanoid_control.controllers import GoalController
@@ -46,6 +52,9 @@ class ControllerServices:
     """
     Services of a ros2_control controller manager, in the namespace `controller_manager`.
 
+    The controllers and the hardware are part of the robot: they are loaded and configured from the
+    start, and stay so. The services that would change that log why they do not.
+
     Parameters
     ----------
     node
@@ -73,6 +82,7 @@ class ControllerServices:
         prefix: str = '',
     ) -> None:
         self._control, self._hardware, self._prefix = control, hardware, prefix
+        self._log = node.get_logger()
         self._name, self._rate_hz = robot or 'humanoid', round(rate_hz)
         answers: tuple[tuple[Any, str, Callable[[Any, Any], Any]], ...] = (
             (ListControllers, 'list_controllers', self._list),
@@ -80,6 +90,12 @@ class ControllerServices:
             (ListHardwareComponents, 'list_hardware_components', self._list_components),
             (ListHardwareInterfaces, 'list_hardware_interfaces', self._list_interfaces),
             (SwitchController, 'switch_controller', self._switch),
+            (LoadController, 'load_controller', self._refuse),
+            (ConfigureController, 'configure_controller', self._configure),
+            (CleanupController, 'cleanup_controller', self._refuse),
+            (UnloadController, 'unload_controller', self._refuse),
+            (ReloadControllerLibraries, 'reload_controller_libraries', self._refuse),
+            (SetHardwareComponentState, 'set_hardware_component_state', self._set_component),
         )
         for kind, name, answer in answers:
             node.create_service(kind, topic(robot, f'controller_manager/{name}'), answer)
@@ -119,6 +135,41 @@ class ControllerServices:
             request.deactivate_controllers,
             request.strictness,
         )
+        return response
+
+    def _configure(self, request: Any, response: Any) -> Any:
+        """Agree if the controller is configured and inactive, which need not be changed then."""
+        states = {each.name: each.state for each in self._controllers()}
+        response.ok = states.get(request.name) == INACTIVE
+        if not response.ok:
+            self._tell_refusal(request.name, f"'{shortened(request.name)}' is active.")
+        return response
+
+    def _refuse(self, request: Any, response: Any) -> Any:
+        """Refuse to load or unload anything."""
+        self._tell_refusal(
+            getattr(request, 'name', ''),
+            'The controllers of this robot are part of it: they are loaded and configured from '
+            'the start, and stay so. Switch them: ros2 control switch_controllers',
+        )
+        response.ok = False
+        return response
+
+    def _tell_refusal(self, name: str, reason: str) -> None:
+        """Log why a request is refused: that there is no such controller, if one is named."""
+        known = name in (each.name for each in self._controllers())
+        self._log.warning(reason if known or not name else _not_switched(self._control, name))
+
+    def _set_component(self, request: Any, response: Any) -> Any:
+        """Agree if the hardware is asked to be what it is, active."""
+        target = request.target_state
+        is_active = target.id == State.PRIMARY_STATE_ACTIVE or target.label == ACTIVE
+        response.ok = request.name == self._name and is_active
+        response.state = State(id=State.PRIMARY_STATE_ACTIVE, label=ACTIVE)
+        if not response.ok:
+            self._log.warning(
+                f"The only hardware component is '{self._name}', which is always active."
+            )
         return response
 
     def _controllers(self) -> list[ControllerInfo]:
