@@ -40,6 +40,7 @@ LONGEST = {
     'humanoid_manipulation': 0.7,
     'humanoid_perception': 0.4,
     'humanoid_control': 0.4,
+    'voice_control': 0.9,
 }
 """Packages whose tests take minutes, in the order in which they begin, before the others.
 

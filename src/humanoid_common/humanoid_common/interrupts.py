@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stop request for a node, and its handling of SIGINT and SIGTERM, which make it."""
+"""Signals that end a process: SIGINT and SIGTERM as a request to stop, and the end of its parent."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+import ctypes
 import signal
 import socket
 import threading
@@ -16,6 +17,7 @@ WAKE_S = 0.05
 """Time for the main thread to handle a signal before it is sent again."""
 JOIN_S = 1.0
 """Maximum wait for the thread at the end of a node; it has nothing left to do then."""
+_PR_SET_PDEATHSIG = 1
 
 
 class StopRequest:
@@ -157,3 +159,16 @@ def _wake_main_thread(number: int, request: StopRequest, handler: PatientInterru
     main = threading.main_thread().ident
     if main is not None and is_unseen():
         signal.pthread_kill(main, number)
+
+
+def end_with_parent(number: signal.Signals) -> None:
+    """
+    Let the kernel send this process a signal when the process that started it is no more.
+
+    Parameters
+    ----------
+    number
+        The signal.
+
+    """
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, number)

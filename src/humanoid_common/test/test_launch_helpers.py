@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from pathlib import Path
+import signal
+import sys
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,6 +17,8 @@ from humanoid_common.testing.launching import (
     running_launch_file,
     undescribed_arguments,
 )
+from humanoid_common.testing.processes import running_program
+from humanoid_common.testing.waiting import wait_until
 from launch_testing import ProcInfoHandler
 import pytest
 
@@ -29,6 +33,25 @@ def generate_launch_description():
         DeclareLaunchArgument('silent', default_value=''),
         ExecuteProcess(cmd=['echo', 'said', LaunchConfiguration('word')], output='screen'),
     ])
+"""
+
+WAITS = """
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+
+def generate_launch_description():
+    script = 'trap "touch FILE; exit" INT; echo ready; while :; do sleep 0.1; done'
+    return LaunchDescription([ExecuteProcess(cmd=['bash', '-c', script], output='screen')])
+"""
+CALLER = """
+from pathlib import Path
+import sys
+from humanoid_common.testing.launching import running_launch_file
+
+with running_launch_file(Path(sys.argv[1])) as program:
+    program.wait_for_output('ready')
+    print('it runs')
+    program.wait_for_exit()
 """
 
 
@@ -52,6 +75,20 @@ def test_run(path: Path) -> None:
     with running_launch_file(path, 'word:=bye') as program:
         report = program.wait_for_exit()
     assert report.status == 0 and 'said bye' in report.output
+
+
+@pytest.mark.parametrize('number', [signal.SIGTERM, signal.SIGKILL])
+def test_end_with_the_caller(tmp_path: Path, number: signal.Signals) -> None:
+    """A launch file is interrupted when the program that runs it is ended or killed."""
+    ended = tmp_path / 'ended'
+    path = tmp_path / 'waits.launch.py'
+    path.write_text(WAITS.replace('FILE', str(ended)), encoding='utf-8')
+    caller = (sys.executable, '-c', CALLER, str(path))
+    with running_program(caller) as program:
+        program.wait_for_output('it runs')
+        program.send(number)
+        program.wait_for_exit()
+        wait_until(ended.exists, 30.0, lambda: 'the launched process to be interrupted')
 
 
 def test_description_under_test(path: Path) -> None:

@@ -8,11 +8,11 @@ the latest when its standard input is closed.
 
 from __future__ import annotations
 
-import ctypes
 import os
 import signal
 import sys
 
+from humanoid_common.interrupts import end_with_parent
 from humanoid_simulation.camera.gl_painter import GlPainter
 from humanoid_simulation.camera.images import Painter, PictureNoiseSource
 from humanoid_simulation.camera.methods import RAYS
@@ -23,7 +23,6 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-_PR_SET_PDEATHSIG = 1
 _LESS_URGENT = 5
 
 
@@ -42,7 +41,7 @@ def main() -> int:
 
 def _depend_on_parent() -> None:
     """End with the parent even if a driver hangs; leave terminal signals to the parent."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    end_with_parent(signal.SIGKILL)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     os.nice(_LESS_URGENT)

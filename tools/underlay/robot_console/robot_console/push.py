@@ -25,6 +25,8 @@ WIDTH_M = 0.02
 PAINT: Paint = (255, 130, 20), 1.0
 STILL = 'The simulated time stands still, so that a push has no effect: press Play.'
 STILL_FRAMES = 60
+IN_FRONT_M = 0.5
+"""How far before the grip the arrow is drawn, on the lines of sight, so that no body hides it."""
 
 
 @dataclass
@@ -37,6 +39,8 @@ class _Pull:
     spring: Spring
     target: Point
     pulses: Pulses
+    eye: Point
+    """Where the viewer who pulls looks from."""
     body_point: Point | None
     """Where the force takes hold in the frame of the simulated body; None until it is known."""
 
@@ -131,6 +135,7 @@ class Push(ObjectTool):
             self._ignored.add(drag.browser)
         if pull is not None and pull.browser == drag.browser:
             pull.target = pull.grip.pointer(drag.now) or pull.target
+            pull.eye = drag.now.origin
             if drag.is_over:
                 self._release()
         if drag.is_over:
@@ -192,7 +197,7 @@ class Push(ObjectTool):
         kind = '' if found.entity and found.entity[1] else 'Object '
         spring = Spring(self.values[f'{kind}Stiffness'], self.values[f'{kind}Largest Force'])
         grip = Grip.on(drag.start, hit.distance, pose)
-        return _Pull(drag.browser, found, grip, spring, grip.at, pulses, None)
+        return _Pull(drag.browser, found, grip, spring, grip.at, pulses, drag.now.origin, None)
 
     def _ask_for_object(self, link: WrenchLink, pull: _Pull, entity: str) -> None:
         """Ask where the object is: a marker may be a part of it, with a pose of its own."""
@@ -218,17 +223,23 @@ class Push(ObjectTool):
             link.push(entity, force_n, point, duration_s, lambda reason: self._fail(pull, reason))
 
     def _show(self, at: Point, pull: _Pull, force_n: Point) -> None:
-        """Draw the spring as an arrow, with the force in N."""
+        """
+        Draw the spring as an arrow, with the force in N.
+
+        The viewer who pulls sees the arrow where the spring is, though nearer and smaller.
+        """
         size_n = math.hypot(*force_n)
-        x, y, z = (b - a for a, b in zip(at, pull.target))
+        scale = max(0.5, 1.0 - IN_FRONT_M / max(math.dist(pull.eye, at), 1e-9))
+        start, tip = (_scaled(pull.eye, point, scale) for point in (at, pull.target))
+        x, y, z = (b - a for a, b in zip(start, tip))
         is_limited = size_n > 0.999 * pull.spring.limit_n
         with self._canvas.anew():
-            add_arrow_to(self._canvas, 'arrow', (x, y, z), WIDTH_M, PAINT, at)
+            add_arrow_to(self._canvas, 'arrow', (x, y, z), scale * WIDTH_M, PAINT, start)
             self._canvas.put(
                 'label',
                 'force',
                 text=f'{size_n:.0f} N{" (limit)" if is_limited else ""}',
-                position=pull.target,
+                position=tip,
             )
 
     def _release(self) -> None:
@@ -246,3 +257,9 @@ class Push(ObjectTool):
 
     def _say(self, sentence: str) -> None:
         self.context.visualizer.notify(self.NAME, sentence)
+
+
+def _scaled(eye: Point, point: Point, scale: float) -> Point:
+    """Move a point towards the eye, to a part of its distance."""
+    x, y, z = (a + scale * (b - a) for a, b in zip(eye, point))
+    return x, y, z

@@ -202,6 +202,13 @@ def test_a_link_is_pulled_until_the_button_is_released(scene: Scene) -> None:
     assert scene.said == []
 
 
+def test_the_arrow_is_in_front_of_the_body(scene: Scene) -> None:
+    """It is half a metre nearer to the viewer, who sees both of its ends where they are."""
+    scene.drag(1.2)
+    assert scene.drawn['arrow']['position'] == pytest.approx((1.0, -1.5, 0.0))
+    assert scene.drawn['force']['position'] == pytest.approx((1.175, -1.5, 0.0))
+
+
 def test_another_browser_cannot_take_over(scene: Scene) -> None:
     """Neither its movements nor its release have an effect."""
     scene.drag(1.2)
