@@ -8,7 +8,7 @@ known about it is known here only.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 import os
@@ -25,6 +25,11 @@ __all__ = ['Browser', 'Tab', 'browser_started', 'chromium']
 CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox']
+RARE_FRAMES = """
+    window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 190);
+    window.cancelAnimationFrame = clearTimeout;
+"""
+"""Lets a page draw five frames a second: without a graphics card, drawing keeps processors busy."""
 SIZE = {'width': 900, 'height': 620}
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
@@ -173,12 +178,30 @@ def browser_started() -> Iterator[Browser]:
 
 
 @contextmanager
-def chromium() -> Iterator[Any]:
-    """Start a browser of playwright; where there is none, the test is left out."""
+def chromium(*, draws_all: bool = False) -> Iterator[Any]:
+    """
+    Start a browser of playwright; where there is none, the test is left out.
+
+    Its pages draw no more frames than tests need, unless they are to draw all.
+    """
     api = pytest.importorskip('playwright.sync_api')
     if not os.path.exists(CHROMIUM):
         pytest.skip(f'needs a browser: there is no {CHROMIUM}')
     with api.sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=ARGUMENTS)
+        if not draws_all:
+            browser.new_page = _calm(browser.new_page)
+            browser.new_context = _calm(browser.new_context)
         yield browser
         browser.close()
+
+
+def _calm(opened: Callable[..., Any]) -> Callable[..., Any]:
+    """Return what opens a page or a context as before, in which frames are rare."""
+
+    def open_calm(**options: Any) -> Any:
+        page = opened(**options)
+        page.add_init_script(RARE_FRAMES)
+        return page
+
+    return open_calm

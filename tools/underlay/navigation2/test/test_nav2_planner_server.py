@@ -91,7 +91,8 @@ class Navigation:
         assert self.server.trigger_configure().name == 'SUCCESS'
         assert self.server.trigger_activate().name == 'SUCCESS'
         grid = self.server.costmap
-        self.ros.wait_until(lambda: grid.is_current and grid.grid.size_x == 120, what='the map')
+        self.ros.wait_until(lambda: grid.grid.size_x == 120, what='the map')
+        self.ros.wait_until(lambda: grid.is_current, what='an update, for which it needs tf')
         return self
 
     def send(self, kind: Any, goal: Any) -> Any:
