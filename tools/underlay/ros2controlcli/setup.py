@@ -9,8 +9,13 @@ verbs = (
     'list_controllers',
     'list_hardware_components',
     'list_hardware_interfaces',
+    'load_controller',
+    'reload_controller_libraries',
     'set_controller_state',
+    'set_hardware_component_state',
     'switch_controllers',
+    'unload_controller',
+    'view_controller_chains',
 )
 
 

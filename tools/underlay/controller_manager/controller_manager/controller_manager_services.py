@@ -148,15 +148,23 @@ def _wait_for_service(node: Node, client: Any, timeout_s: float) -> None:
         if now_s > reported_s + _REPORT_S:
             reported_s = now_s
             node.get_logger().info(f"Waiting for the service '{client.srv_name}'")
-        rclpy.spin_once(node, timeout_sec=_LOOK_S)
+        _spin_once(node)
 
 
 def _answers(node: Node, future: Any, timeout_s: float) -> bool:
     """Spin until there is an answer, in pieces so that a signal is noticed; return whether."""
     end_s = time.monotonic() + timeout_s
     while not future.done() and time.monotonic() < end_s:
-        rclpy.spin_until_future_complete(node, future, timeout_sec=_LOOK_S)
+        _spin_once(node)
     return bool(future.done())
+
+
+def _spin_once(node: Node) -> None:
+    """Spin a node once, with the executor that it is in, if any."""
+    if node.executor is None:
+        rclpy.spin_once(node, timeout_sec=_LOOK_S)
+    else:
+        node.executor.spin_once(timeout_sec=_LOOK_S)
 
 
 def _call(
@@ -431,13 +439,14 @@ def switch_controllers(
     activate_asap: bool,
     timeout: float,
     call_timeout: float = 10.0,
+    service_timeout: float = 0.0,
 ) -> SwitchController.Response:
     """
     Deactivate and activate controllers in one step.
 
     Parameters
     ----------
-    node, controller_manager_name, call_timeout
+    node, controller_manager_name, call_timeout, service_timeout
         As for `list_controllers`.
     deactivate_controllers, activate_controllers
         The names of the controllers.
@@ -457,7 +466,7 @@ def switch_controllers(
         controller_manager_name,
         'switch_controller',
         SwitchController,
-        0.0,
+        service_timeout,
         max(call_timeout, timeout),
         activate_controllers=list(activate_controllers),
         deactivate_controllers=list(deactivate_controllers),

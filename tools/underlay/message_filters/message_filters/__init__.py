@@ -12,6 +12,7 @@ given to `registerCallback`::
 """
 
 from message_filters.cache import Cache
+from message_filters.chain import Chain
 from message_filters.simple_filter import SimpleFilter
 from message_filters.subscriber import Subscriber
 from message_filters.synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
@@ -19,6 +20,7 @@ from message_filters.synchronizers import ApproximateTimeSynchronizer, TimeSynch
 __all__ = [
     'ApproximateTimeSynchronizer',
     'Cache',
+    'Chain',
     'SimpleFilter',
     'Subscriber',
     'TimeSynchronizer',

@@ -33,7 +33,7 @@ class SimpleFilter:
             The key of the function in `callbacks`.
 
         """
-        key = len(self.callbacks)
+        key = max(self.callbacks, default=-1) + 1
         self.callbacks[key] = (cb, args)
         return key
 

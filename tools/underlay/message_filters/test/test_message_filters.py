@@ -10,6 +10,7 @@ from typing import Any
 from message_filters import (
     ApproximateTimeSynchronizer,
     Cache,
+    Chain,
     SimpleFilter,
     Subscriber,
     TimeSynchronizer,
@@ -143,6 +144,53 @@ def test_cache() -> None:
     assert cache.getElemBeforeTime(second) is None
     assert cache.getElemAfterTime(Time(seconds=5)) is None
     assert seconds_of(cache.getLast()) == (4.0,)
+
+
+class Numbered(SimpleFilter):
+    """A filter that adds its number to a text."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self._number = number
+
+    def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
+        """Take the texts of a filter."""
+        f.registerCallback(self.add)
+
+    def add(self, text: str) -> None:
+        """Put out a text with the number."""
+        self.signalMessage(f'{text}{self._number}')
+
+
+def test_chain() -> None:
+    """What goes in passes all filters, however late they are added; another input replaces it."""
+    source, other = SimpleFilter(), SimpleFilter()
+    chain = Chain(source)
+    got: list[str] = []
+    chain.registerCallback(got.append)
+    source.signalMessage('a')
+    filters = [Numbered(1), Numbered(2)]
+    assert [chain.addFilter(each) for each in filters] == [0, 1]
+    source.signalMessage('b')
+    chain.connectInput(other)
+    source.signalMessage('c')
+    other.signalMessage('d')
+    chain.add('e')
+    assert got == ['a', 'b12', 'd12', 'e12']
+    assert [chain.getFilter(index) for index in (0, 1, 2, -1)] == [*filters, None, None]
+    with pytest.raises(TypeError, match='SimpleFilter has no connectInput'):
+        chain.addFilter(source)
+
+
+def test_chain_of_a_cache() -> None:
+    """A cache in a chain keeps what passes."""
+    chain = Chain()
+    chain.addFilter(Cache(None, 3))
+    times = keep_times(chain)
+    for second in (1.0, 2.0):
+        chain.add(at(second))
+    assert times == [(1.0,), (2.0,)]
+    assert seconds_of(chain.getFilter(0).getLast()) == (2.0,)
 
 
 @pytest.fixture

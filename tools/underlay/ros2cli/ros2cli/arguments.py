@@ -35,6 +35,24 @@ def add_node_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_ros_args_argument(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the option for the arguments of ROS of the node of a command.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument(
+        '--ros-args',
+        nargs=argparse.REMAINDER,
+        default=[],
+        help="arguments of ROS for the node of this command, such as '-r __ns:=/robot1'",
+    )
+
+
 def add_strategy_arguments(parser: argparse.ArgumentParser) -> None:
     """
     Add the options of verbs that read the graph.

@@ -58,7 +58,8 @@ class BagCommand(VerbCommand):
     VERBS = {
         'burst': Entry('ros2bag.verb.burst:BurstVerb', 'Publish a bag as fast as possible'),
         'convert': Entry(
-            'ros2bag.verb.convert:ConvertVerb', 'Show how to convert a bag to another format'
+            'ros2bag.verb.convert:ConvertVerb',
+            'Given input bags, write out new bags with different settings',
         ),
         'info': Entry('ros2bag.verb.info:InfoVerb', 'Print information about a bag'),
         'list': Entry('ros2bag.verb.list:ListVerb', 'Print the supported formats'),

@@ -29,6 +29,7 @@ YAML_EXAMPLE = '"{data: [1, 2]}"'
 END_OF_OPTIONS = '--'
 NEGATIVE_NUMBER = re.compile(r'-((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|\.inf)', re.IGNORECASE)
 UNLIMITED = float('inf')
+ROS_ARGS = '--ros-args'
 PARSER_OF_REST = '_parser_of_rest'  # an attribute of the result that is not an argument
 
 Options = Mapping[str, argparse.Action]
@@ -97,9 +98,14 @@ class Parser(argparse.ArgumentParser):
 
         """
         words = sys.argv[1:] if args is None else list(args)
+        ros_args: list[str] = []
+        if ROS_ARGS in self._option_string_actions:
+            words, ros_args = without_ros_args(words)
         if self._takes_any_order():
             words = options_first(words, self._option_string_actions)
         found, rest = super().parse_known_args(words, namespace)
+        if ros_args:
+            found.ros_args = ros_args
         if rest and not hasattr(found, PARSER_OF_REST):
             setattr(found, PARSER_OF_REST, self)
         return found, rest
@@ -166,6 +172,34 @@ def terminal_width() -> int:
         return os.get_terminal_size(1).columns or DEFAULT_WIDTH
     except OSError:
         return DEFAULT_WIDTH
+
+
+def without_ros_args(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """
+    Separate the arguments of ROS, which follow `--ros-args` and end at `--`.
+
+    Parameters
+    ----------
+    words
+        The arguments of one parser.
+
+    Returns
+    -------
+    tuple of two lists of str
+        The other arguments, and those of ROS without the two marks.
+
+    """
+    others: list[str] = []
+    ros_args: list[str] = []
+    target = others
+    for word in words:
+        if word == ROS_ARGS:
+            target = ros_args
+        elif word == END_OF_OPTIONS and target is ros_args:
+            target = others
+        else:
+            target.append(word)
+    return others, ros_args
 
 
 def options_first(words: Sequence[str], options: Options) -> list[str]:

@@ -9,12 +9,25 @@ import time
 from typing import Any
 
 from bag_samples import LATCHED, MS, start_bag, START_NS, string, topic, write_bag
+from builtin_interfaces.msg import Time
 import pytest
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros2bag.storage.metadata import Topic
 from ros2bag.storage.offered_qos import OfferedQos
+from rosbag2_interfaces.srv import (
+    Burst,
+    GetRate,
+    IsPaused,
+    Pause,
+    PlayNext,
+    Resume,
+    Seek,
+    SetRate,
+    Stop,
+    TogglePaused,
+)
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 
@@ -43,6 +56,19 @@ class Ear:
             lambda message: self.heard.append((name, message, time.monotonic())),
             QoSProfile(depth=1000, durability=durability),
         )
+
+    def call(self, name: str, kind: Any, **fields: Any) -> Any:
+        """Call a service of the player, and return its response."""
+        client = self._node.create_client(kind, f'/rosbag2_player/{name}')
+        self.spin_until(client.service_is_ready)
+        future = client.call_async(kind.Request(**fields))
+        end = time.monotonic() + 5.0
+        while not future.done():
+            self._executor.spin_once(timeout_sec=0.05)
+            if time.monotonic() > end:  # a server drops its response to one not discovered yet
+                raise AssertionError(f'no answer of {name}')
+        self._node.destroy_client(client)
+        return future.result()
 
     def texts(self, name: str) -> list[str]:
         """Return the texts heard on a topic."""
@@ -157,17 +183,95 @@ def test_clock_shows_recorded_time(ear: Ear, start_ros2: Start, tmp_path: Path) 
 
 def test_paused_player_waits_for_its_service(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
     """Nothing is played before the service says so."""
-    from std_srvs.srv import Trigger
-
     write_bag(tmp_path / 'bag', count=10)
     ear.listen('/ticks')
     process = start_ros2('bag', 'play', str(tmp_path / 'bag'), '--start-paused')
-    client = ear._node.create_client(Trigger, '/rosbag2_player/resume')
-    ear.spin_until(client.service_is_ready)
-    assert ear.heard == []
-    client.call_async(Trigger.Request())
+    assert ear.call('resume', Resume) == Resume.Response()
     ear.spin_with(process)
     assert len(ear.heard) == 10
+
+
+def test_services_control_the_player(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Messages one by one, several at once, another position, another rate, and the end."""
+    write_bag(tmp_path / 'bag', count=100)
+    ear.listen('/ticks')
+    topics = ['--topics', '/ticks', '--start-paused']
+    process = start_ros2('bag', 'play', str(tmp_path / 'bag'), *topics)
+    assert ear.call('is_paused', IsPaused).paused
+    assert ear.call('play_next', PlayNext).success
+    assert ear.call('burst', Burst, num_messages=3).actually_burst == 3
+    ear.spin_until(lambda: len(ear.heard) == 4)
+    assert not ear.call('seek', Seek, time=_stamp(-1)).success
+    assert ear.call('seek', Seek, time=_stamp(500 * MS)).success
+    assert ear.call('play_next', PlayNext).success
+    ear.spin_until(lambda: len(ear.heard) == 5)
+    assert not ear.call('set_rate', SetRate, rate=-1.0).success
+    assert ear.call('set_rate', SetRate, rate=0.01).success
+    assert ear.call('get_rate', GetRate).rate == 0.01
+    ear.call('toggle_paused', TogglePaused)
+    assert not ear.call('is_paused', IsPaused).paused
+    assert not ear.call('play_next', PlayNext).success
+    assert ear.call('burst', Burst).actually_burst == 0
+    ear.call('pause', Pause)
+    assert ear.call('seek', Seek, time=_stamp(980 * MS)).success
+    assert ear.call('burst', Burst).actually_burst == 2
+    assert ear.call('seek', Seek, time=_stamp(0)).success
+    ear.call('stop', Stop)
+    errors = ear.spin_with(process)
+    assert ear.texts('/ticks') == ['0', '1', '2', '3', '50', '98', '99']
+    assert 'Played 7 messages.' in errors
+
+
+def _stamp(time_ns: int) -> Time:
+    return rclpy.time.Time(nanoseconds=START_NS + time_ns).to_msg()
+
+
+def test_several_bags_are_merged(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """Messages of all bags are played in the order of their times."""
+    for name, offset in (('a', 0), ('b', 5)):
+        writer = start_bag(tmp_path / name, topic('/ticks'))
+        for number in range(10):
+            writer.write(string('/ticks', f'{name}{number}', (10 * number + offset) * MS))
+        writer.close()
+    ear.listen('/ticks')
+    bags = ['-i', str(tmp_path / 'a'), '-i', str(tmp_path / 'b'), 'mcap']
+    ear.spin_with(start_ros2('bag', 'burst', *bags))
+    assert ear.texts('/ticks') == [f'{name}{number}' for number in range(10) for name in 'ab']
+
+
+@pytest.mark.parametrize(
+    ('words', 'last'),
+    [
+        (['--playback-until-nsec', str(START_NS + 55 * MS)], 5),
+        (['--playback-until-sec', '1700000000.2'], 20),
+        (['--playback-until-nsec', str(START_NS), '--playback-duration', '0.1'], 10),
+    ],
+)
+def test_end_of_playback(
+    ear: Ear, start_ros2: Start, tmp_path: Path, words: list[str], last: int
+) -> None:
+    """A recorded time or a duration ends it; of both, the later end."""
+    write_bag(tmp_path / 'bag', count=50)
+    ear.listen('/ticks')
+    ear.spin_with(start_ros2('bag', 'burst', str(tmp_path / 'bag'), *words))
+    assert ear.texts('/ticks') == [str(number) for number in range(last + 1)]
+
+
+@pytest.mark.parametrize('words', [['--clock-topics', '/ticks'], ['--clock-topics-all']])
+def test_clock_before_messages(
+    ear: Ear, start_ros2: Start, tmp_path: Path, words: list[str]
+) -> None:
+    """The time of each message is published when it is played."""
+    writer = start_bag(tmp_path / 'bag', topic('/ticks'), topic('/other'))
+    for number in range(5):
+        writer.write(string('/ticks', str(number), number * 20 * MS))
+        writer.write(string('/other', str(number), (number * 20 + 10) * MS))
+    writer.close()
+    ear.listen('/clock', Clock)
+    ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), *words))
+    stamps = [m.clock.sec * 10**9 + m.clock.nanosec - START_NS for _, m, _ in ear.heard]
+    step = 20 if len(words) == 2 else 10
+    assert stamps == [time_ms * MS for time_ms in range(0, 100 - 20 + step, step)]
 
 
 def test_unknown_type_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:

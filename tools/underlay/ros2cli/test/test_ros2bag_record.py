@@ -16,6 +16,7 @@ from bag_samples import MS, START_NS, texts, write_bag
 import pytest
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.salvage import Salvage
+from rosbag2_interfaces.srv import IsPaused, Resume, Snapshot, SplitBagfile
 from rosbags.highlevel import AnyReader
 
 Ros2 = Callable[..., CompletedProcess[str]]
@@ -230,7 +231,8 @@ def test_paused_recorder_waits_for_its_service(
     start_talker()
     _expect_line(process, "Subscribed to topic '/later'")
     assert _size_of_messages(folder) == 0
-    _call_trigger('/rosbag2_recorder/resume', ros_environment_variables, monkeypatch)
+    assert _call('is_paused', IsPaused, ros_environment_variables, monkeypatch).paused
+    _call('resume', Resume, ros_environment_variables, monkeypatch)
     _wait_for_messages(folder / 'bag_0.mcap', 50)
     assert _stop(process)[0] == 0
     assert texts(BagReader(str(folder)).messages(), '/description') == ['<robot/>']
@@ -252,6 +254,87 @@ def test_split_repeats_latched_messages(
         assert texts(part.messages(['/description']), '/description') == ['<robot/>']
     numbers = _numbers(folder)
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+def test_service_splits_the_recording(
+    start_talker: Callable[[], None],
+    start_ros2: Start,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    ros_environment_variables: dict[str, str],
+) -> None:
+    """The next file begins with the latched messages, and a topic tells of it."""
+    folder = tmp_path / 'bag'
+    start_talker()
+    process = start_ros2('bag', 'record', '-a', '-o', str(folder))
+    told = start_ros2(
+        'topic', 'echo', '--once', '/events/write_split', 'rosbag2_interfaces/msg/WriteSplitEvent'
+    )
+    _wait_for_messages(folder / 'bag_0.mcap', 20)
+    _wait_for_subscriber('/events/write_split', ros_environment_variables, monkeypatch)
+    _call('split_bagfile', SplitBagfile, ros_environment_variables, monkeypatch)
+    _wait_for_messages(folder / 'bag_1.mcap', 20)
+    assert _stop(process)[0] == 0
+    part = BagReader(str(folder / 'bag_1.mcap'))
+    assert texts(part.messages(['/description']), '/description') == ['<robot/>']
+    output, _ = told.communicate(timeout=TIMEOUT_S)
+    assert output.splitlines()[:2] == [
+        f'closed_file: {folder}/bag_0.mcap',
+        f'opened_file: {folder}/bag_1.mcap',
+    ]
+
+
+def _wait_for_subscriber(
+    topic: str, variables: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with _node(variables, monkeypatch) as (node, _):
+        end = time.monotonic() + TIMEOUT_S
+        while not (node.count_subscribers(topic) and node.count_publishers(topic)):
+            assert time.monotonic() < end
+            time.sleep(0.05)
+        time.sleep(0.5)
+
+
+def test_snapshot(
+    start_talker: Callable[[], None],
+    start_ros2: Start,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    ros_environment_variables: dict[str, str],
+) -> None:
+    """Nothing is written until the service is called: then the last messages, and latched ones."""
+    folder = tmp_path / 'bag'
+    words = ['-a', '-o', str(folder), '--snapshot-mode', '--max-cache-size', '4000']
+    process = start_ros2('bag', 'record', *words)
+    start_talker()
+    _expect_line(process, "Subscribed to topic '/later'")
+    time.sleep(1.0)
+    assert _size_of_messages(folder) == 0
+    assert _call('snapshot', Snapshot, ros_environment_variables, monkeypatch).success
+    assert _stop(process)[0] == 0
+    numbers = _numbers(folder)
+    assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+    assert numbers[0] > 0 and 10 < len(numbers) < 130
+    messages = list(BagReader(str(folder)).messages())
+    assert texts(messages, '/description') == ['<robot/>']
+    assert {each.topic for each in messages[:2]} >= {'/description'}
+
+
+def test_topics_without_subscribers_are_ignored(
+    start_talker: Callable[[], None], start_ros2: Start, tmp_path: Path
+) -> None:
+    """With --ignore-leaf-topics a topic is recorded once somebody else subscribes to it."""
+    folder = tmp_path / 'bag'
+    start_talker()
+    start_ros2('topic', 'echo', '/sensor', 'std_msgs/msg/String')
+    process = start_ros2('bag', 'record', '-a', '-o', str(folder), '--ignore-leaf-topics')
+    _wait_for_messages(folder / 'bag_0.mcap', 20)
+    start_ros2('topic', 'echo', '/ticks', 'std_msgs/msg/String')
+    _expect_line(process, "Subscribed to topic '/ticks'")
+    assert _stop(process)[0] == 0
+    names = {each.topic.name for each in BagReader(str(folder)).metadata.topics}
+    assert {'/sensor', '/ticks'} <= names
+    assert '/description' not in names
 
 
 def test_simulated_time_is_recorded(start_ros2: Start, tmp_path: Path) -> None:
@@ -332,24 +415,24 @@ def _size_of_messages(folder: Path) -> int:
     return sum(hasattr(each, 'sequence') for each in Salvage(str(path)).records())
 
 
-def _call_trigger(name: str, variables: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+def _call(name: str, kind: Any, variables: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Call a service of the recorder once it is there, and return its response."""
     from rclpy.executors import SingleThreadedExecutor
-    from std_srvs.srv import Trigger
 
     with _node(variables, monkeypatch) as (node, context):
         executor = SingleThreadedExecutor(context=context)
         executor.add_node(node)
-        client = node.create_client(Trigger, name)
+        client = node.create_client(kind, f'/rosbag2_recorder/{name}')
         assert client.wait_for_service(timeout_sec=TIMEOUT_S)
         end = time.monotonic() + TIMEOUT_S
         answer = None
         while answer is None:  # a server drops its response to a client not discovered yet
             assert time.monotonic() < end, f'no answer of {name}'
-            future = client.call_async(Trigger.Request())
+            future = client.call_async(kind.Request())
             executor.spin_until_future_complete(future, timeout_sec=5.0)
             answer = future.result()
         executor.shutdown()
-        assert answer.success
+    return answer
 
 
 @contextmanager

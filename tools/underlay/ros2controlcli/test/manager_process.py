@@ -3,7 +3,7 @@
 A process that answers as controller managers do.
 
 One has a controller that walks, and an arm; the other one, `legs/controller_manager`, has a
-controller that is not configured.
+controller that is not configured, and loads others.
 """
 
 from __future__ import annotations
@@ -24,9 +24,15 @@ from controller_manager_msgs.srv import (
     ListControllerTypes,
     ListHardwareComponents,
     ListHardwareInterfaces,
+    LoadController,
+    ReloadControllerLibraries,
+    SetHardwareComponentState,
     SwitchController,
+    UnloadController,
 )
 from lifecycle_msgs.msg import State
+from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParameters
 import rclpy
 from rclpy.executors import ExternalShutdownException
 
@@ -104,24 +110,82 @@ class Manager:
 
 
 class Legs:
-    """The answers of a manager with a controller that is not configured."""
+    """The answers of a manager that loads what it knows the type of, and has a chain."""
 
     def __init__(self, node: Any) -> None:
         """Offer the services."""
-        self._state = 'unconfigured'
+        self._states = {'leg': 'unconfigured'}
+        self._typed = {'foot'}
+        self._hardware = State(id=State.PRIMARY_STATE_INACTIVE, label='inactive')
         for kind, name, answer in (
             (ListControllers, 'list_controllers', self._controllers),
+            (ListControllerTypes, 'list_controller_types', self._types),
             (ConfigureController, 'configure_controller', self._configure),
+            (SwitchController, 'switch_controller', self._switch),
+            (LoadController, 'load_controller', self._load),
+            (UnloadController, 'unload_controller', self._unload),
+            (ReloadControllerLibraries, 'reload_controller_libraries', self._reload),
+            (ListHardwareComponents, 'list_hardware_components', self._components),
+            (SetHardwareComponentState, 'set_hardware_component_state', self._set_component),
+            (SetParameters, 'set_parameters', self._set_parameters),
         ):
             node.create_service(kind, f'legs/controller_manager/{name}', answer)
 
     def _controllers(self, _: Any, response: Any) -> Any:
-        response.controller = [ControllerState(name='leg', state=self._state, type='l/Leg')]
+        response.controller = [
+            ControllerState(name=name, state=state, type='l/Leg')
+            for name, state in self._states.items()
+        ]
+        return response
+
+    def _types(self, _: Any, response: Any) -> Any:
+        response.types, response.base_classes = ['l/Leg'], ['base']
         return response
 
     def _configure(self, request: Any, response: Any) -> Any:
-        self._state = 'inactive'
-        response.ok = request.name == 'leg'
+        self._states[request.name] = 'inactive'
+        response.ok = request.name in ('leg', 'foot')
+        return response
+
+    def _switch(self, request: Any, response: Any) -> Any:
+        self._states |= dict.fromkeys(request.activate_controllers, 'active')
+        self._states |= dict.fromkeys(request.deactivate_controllers, 'inactive')
+        response.ok = True
+        return response
+
+    def _load(self, request: Any, response: Any) -> Any:
+        response.ok = request.name in self._typed
+        if response.ok:
+            self._states[request.name] = 'unconfigured'
+        return response
+
+    def _unload(self, request: Any, response: Any) -> Any:
+        response.ok = self._states[request.name] != 'active'
+        if response.ok:
+            del self._states[request.name]
+        return response
+
+    def _reload(self, request: Any, response: Any) -> Any:
+        response.ok = request.force_kill or 'active' not in self._states.values()
+        if response.ok:
+            self._states = {}
+        return response
+
+    def _components(self, _: Any, response: Any) -> Any:
+        response.component = [HardwareComponentState(name='motors', state=self._hardware)]
+        return response
+
+    def _set_component(self, request: Any, response: Any) -> Any:
+        response.ok = request.target_state.id != State.PRIMARY_STATE_UNCONFIGURED
+        if response.ok:
+            self._hardware = request.target_state
+        response.state = self._hardware
+        return response
+
+    def _set_parameters(self, request: Any, response: Any) -> Any:
+        names = [each.name for each in request.parameters]
+        self._typed |= {name.removesuffix('.type') for name in names if name.endswith('.type')}
+        response.results = [SetParametersResult(successful=True) for _ in names]
         return response
 
 

@@ -14,6 +14,7 @@ from domain_coordinator import domain_id
 import pytest
 from ros2cli.cli import main
 from ros2controlcli.command.control import ControlCommand
+from ros2controlcli.verb import view_controller_chains
 
 Ros2 = Callable[..., 'subprocess.CompletedProcess[str]']
 PROCESS = Path(__file__).with_name('manager_process.py')
@@ -176,11 +177,112 @@ def test_set_the_state_of_what_is_not_there(control: Ros2) -> None:
     """A controller that does not exist is an error with a similar name; others are refused."""
     done = control('set_controller_state', 'arm_controler', 'active')
     assert done.stderr == (
-        "controller 'arm_controler' does not seem to be loaded\nDid you mean 'arm_controller'?\n"
+        "There is no controller 'arm_controler'\nDid you mean 'arm_controller'? "
+        'To load one: ros2 control load_controller\n'
     )
     done = control('set_controller_state', 'walk', 'inactive')
     assert (done.returncode, done.stdout) == (1, '')
     assert done.stderr == "Error deactivating controller 'walk'. There is no 'walk'.\n"
+
+
+LEGS = ('-c', 'legs/controller_manager')
+
+
+def test_load_and_unload(control: Ros2) -> None:
+    """A controller is loaded and brought to a state; one that is active is not unloaded."""
+    done = control('load_controller', 'foot', '--set-state', 'active', *LEGS)
+    assert (done.returncode, done.stderr) == (0, '')
+    assert done.stdout == (
+        'Successfully loaded controller foot\n'
+        'Successfully configured foot\n'
+        'Successfully activated foot\n'
+    )
+    again = control('load_controller', 'foot', *LEGS)
+    assert again.stderr == (
+        "The controller 'foot' is loaded already, and active. To change that: "
+        'ros2 control set_controller_state foot active\n'
+    )
+    done = control('unload_controller', 'foot', *LEGS)
+    assert (done.returncode, done.stderr) == (
+        1,
+        "Error unloading controller 'foot'. It is active. Try first: "
+        'ros2 control set_controller_state foot inactive\n',
+    )
+    assert control('set_controller_state', 'foot', 'inactive', *LEGS).returncode == 0
+    done = control('unload_controller', 'foot', *LEGS)
+    assert (done.returncode, done.stdout) == (0, 'Successfully unloaded controller foot\n')
+    done = control('unload_controller', 'foot', *LEGS)
+    assert done.stderr == "There is no controller 'foot'\nThere are: leg\n"
+
+
+def test_load_with_a_parameter_file(control: Ros2, tmp_path: Path) -> None:
+    """The manager refuses a controller without a type; the file tells it the type."""
+    done = control('load_controller', 'tail', *LEGS)
+    assert done.returncode == 1
+    assert done.stderr == (
+        "Error loading controller 'tail'. The log of the controller manager "
+        "'/legs/controller_manager' says why. It has to know the type from its parameter "
+        "'tail.type', which a parameter file can set. Types that it can load: l/Leg\n"
+    )
+    path = tmp_path / 'tail.yaml'
+    path.write_text('tail: {ros__parameters: {type: l/Leg}}\n')
+    done = control('load_controller', 'tail', str(path), *LEGS)
+    assert (done.returncode, done.stdout) == (0, 'Successfully loaded controller tail\n')
+    assert control('unload_controller', 'tail', *LEGS).returncode == 0
+    done = control('load_controller', 'tail', 'no.yaml', *LEGS)
+    assert done.returncode == 1 and "no.yaml' cannot be read" in done.stderr
+
+
+def test_reload_controller_libraries(control: Ros2) -> None:
+    """A manager with active controllers refuses; they are named. --force-kill stops them."""
+    control('load_controller', 'foot', '--set-state', 'active', *LEGS)
+    done = control('reload_controller_libraries', *LEGS)
+    assert done.returncode == 1
+    assert done.stderr.endswith('Active are: foot. Deactivate them, or try --force-kill\n')
+    done = control('reload_controller_libraries', '--force-kill', *LEGS)
+    assert (done.returncode, done.stdout) == (0, 'Successfully reloaded controller libraries\n')
+
+
+def test_set_hardware_component_state(control: Ros2) -> None:
+    """A component gets the state; a refusal says in which state it is."""
+    done = control('set_hardware_component_state', 'motors', 'active', *LEGS)
+    assert (done.returncode, done.stdout) == (0, 'Successfully set motors to active\n')
+    done = control('set_hardware_component_state', 'motors', 'unconfigured', *LEGS)
+    assert (done.returncode, done.stderr) == (
+        1,
+        "Error setting hardware component 'motors' to unconfigured: it is active. The log of the "
+        "controller manager '/legs/controller_manager' says why\n",
+    )
+    done = control('set_hardware_component_state', 'motor', 'active', *LEGS)
+    assert done.stderr == "There is no hardware component 'motor'\nDid you mean 'motors'?\n"
+
+
+def test_arguments_of_ros(control: Ros2) -> None:
+    """The namespace of the node is that of a manager without a leading slash."""
+    done = control('list_controller_types', '--ros-args', '-r', '__ns:=/legs')
+    assert (done.returncode, done.stdout) == (0, 'l/Leg base\n')
+    done = control('list_controller_types', '--ros-args', '-r', 'nonsense')
+    assert done.returncode == 1 and 'nonsense' in done.stderr
+
+
+@pytest.mark.parametrize('has_graphviz', [False, True])
+def test_view_controller_chains(
+    control: Ros2, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, has_graphviz: bool
+) -> None:
+    """The arrows of the diagram are the interfaces; without Graphviz it is an SVG."""
+    monkeypatch.setattr(view_controller_chains, 'SOURCE', tmp_path / 'd.gv')
+    dot = tmp_path / 'dot'
+    if has_graphviz:
+        dot.write_text('#!/bin/sh\ncp "$2" "$4"\n')
+        dot.chmod(0o755)
+    monkeypatch.setenv('PATH', f'{tmp_path}:/bin' if has_graphviz else str(tmp_path))
+    done = control('view_controller_chains')
+    target = tmp_path / f'd.gv.{"pdf" if has_graphviz else "svg"}'
+    assert done.returncode == 0 and done.stdout.startswith(f'Drawn: {target}')
+    assert '"arm_controller" -> "robot" [label="elbow/position" style=solid' in (
+        tmp_path / 'd.gv'
+    ).read_text()
+    assert 'arm_controller' in target.read_text()
 
 
 def test_switch_nothing(control: Ros2) -> None:

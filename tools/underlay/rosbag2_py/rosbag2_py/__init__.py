@@ -50,7 +50,7 @@ _INSTEAD = {
     'RecordOptions': 'start `ros2 bag record` as a process',
     'SequentialCompressionReader': 'SequentialReader reads compressed chunks of MCAP files',
     'SequentialCompressionWriter': "use SequentialWriter with storage_preset_profile='zstd_fast'",
-    'bag_rewrite': 'copy messages from a SequentialReader to a SequentialWriter',
+    'bag_rewrite': 'start `ros2 bag convert` as a process',
 }
 
 

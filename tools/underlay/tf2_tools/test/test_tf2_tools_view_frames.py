@@ -65,7 +65,7 @@ def test_graph_is_drawn(tmp_path: Path, dot: None) -> None:
     """With graphviz there is a PDF; folders are made."""
     path = str(tmp_path / 'deep' / 'frames')
     assert write_graph(path, 'digraph G {}\n') == f'{path}.gv'
-    assert draw(path, never) == ''
+    assert draw(f'{path}.gv', f'{path}.pdf', never) == ''
     assert Path(f'{path}.pdf').read_text() == 'drawn\n'
 
 
@@ -73,13 +73,13 @@ def test_graphviz_fails(tmp_path: Path, dot: None) -> None:
     """What graphviz says is handed on."""
     path = str(tmp_path / 'frames')
     write_graph(path, 'nothing')
-    assert draw(path, never) == f'dot could not draw {path}.gv: no graph in {path}.gv'
+    assert draw(f'{path}.gv', f'{path}.pdf', never) == f'dot could not draw {path}.gv: no graph in {path}.gv'
 
 
 def test_graphviz_cannot_start(tmp_path: Path, dot: None) -> None:
     """A program that is none is a sentence."""
     (tmp_path / 'bin' / 'dot').write_text('#!/no/such/shell\n')
-    assert draw(str(tmp_path / 'frames'), never).startswith('dot cannot be started: No such file')
+    assert draw(str(tmp_path / 'f.gv'), str(tmp_path / 'f.pdf'), never).startswith('dot cannot be started: No such file')
 
 
 def test_interrupt_of_graphviz(tmp_path: Path, dot: None, environment: dict[str, str]) -> None:

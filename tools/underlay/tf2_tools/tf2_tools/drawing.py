@@ -85,14 +85,16 @@ def write_tree(path: str, frames: Frames) -> str:
     return f'{path}.svg'
 
 
-def draw(path: str, is_stopped: Callable[[], bool]) -> str:
+def draw(source: str, target: str, is_stopped: Callable[[], bool]) -> str:
     """
-    Render PATH.gv as PATH.pdf with Graphviz.
+    Render a graph as a PDF with Graphviz.
 
     Parameters
     ----------
-    path
-        The path without extension.
+    source
+        The path of the graph.
+    target
+        The path of the PDF.
     is_stopped
         Polled every 0.1 s while Graphviz runs; Graphviz is killed when this returns True, or
         after 60 s.
@@ -103,29 +105,29 @@ def draw(path: str, is_stopped: Callable[[], bool]) -> str:
         The reason why the file was not rendered; '' on success.
 
     """
-    command = ['dot', '-Tpdf', f'{path}.gv', '-o', f'{path}.pdf']
+    command = ['dot', '-Tpdf', source, '-o', target]
     try:
         process = subprocess.Popen(
             command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         )
     except OSError as error:
         return f'dot cannot be started: {error.strerror}'
-    return _problem(process, path, is_stopped)
+    return _problem(process, source, is_stopped)
 
 
-def _problem(process: subprocess.Popen[str], path: str, is_stopped: Callable[[], bool]) -> str:
+def _problem(process: subprocess.Popen[str], source: str, is_stopped: Callable[[], bool]) -> str:
     """Wait for Graphviz with a timeout; return the error message, or '' on success."""
     end_s = time.monotonic() + _TIMEOUT_S
     while True:
         try:
             _, errors = process.communicate(timeout=_LOOK_S)
-            return f'dot could not draw {path}.gv: {errors.strip()}' if process.returncode else ''
+            return f'dot could not draw {source}: {errors.strip()}' if process.returncode else ''
         except subprocess.TimeoutExpired:
             if is_stopped() or time.monotonic() > end_s:
                 break
     process.kill()
     process.communicate()
-    return f'dot did not finish drawing {path}.gv in time, and was stopped'
+    return f'dot did not finish drawing {source} in time, and was stopped'
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ def _view(args: argparse.Namespace) -> int:
         logger.error(f'{path} cannot be written: {error.strerror}. Give another --output')
         return 1
     if drawn.endswith('.pdf'):
-        problem = draw(path, partial(wait_for_signal, 0.0))
+        problem = draw(f'{path}.gv', drawn, partial(wait_for_signal, 0.0))
         if problem:
             logger.warning(problem)
     _say_what_is_missing(node, buffer)

@@ -9,14 +9,24 @@ from dataclasses import dataclass, field
 import re
 from typing import Any
 
+from ros2bag.storage.service_events import event_topic, Service, service_of
 from ros2cli.names import is_hidden
 
-__all__ = ['Refused', 'TopicFilter', 'count', 'not_negative', 'regular_expression']
+__all__ = [
+    'Refused',
+    'TopicFilter',
+    'add_log_level_argument',
+    'count',
+    'not_negative',
+    'regular_expression',
+]
+
+LOG_LEVELS = ('debug', 'info', 'warn', 'error', 'fatal')
 
 
 @dataclass(frozen=True)
 class TopicFilter:
-    """Topic filter: the requested topics minus the excluded ones."""
+    """Filter of topics and services: the requested ones minus the excluded ones."""
 
     everything: bool = False
     topics: frozenset[str] = frozenset()
@@ -26,10 +36,20 @@ class TopicFilter:
     excluded_types: frozenset[str] = frozenset()
     excluded_regex: re.Pattern[str] | None = None
     include_hidden: bool = field(default=True)
+    all_services: bool = False
+    services: frozenset[str] = frozenset()
+    excluded_services: frozenset[str] = frozenset()
+
+    @property
+    def named(self) -> frozenset[str]:
+        """Return the topics that are requested by name, including those of services' events."""
+        return self.topics | {event_topic(service) for service in self.services}
 
     def wants(self, name: str, type_name: str) -> bool:
         """
         Whether a topic is selected; one given by name is selected even if it is hidden.
+
+        The topic with the events of a service is selected as the service is.
 
         Parameters
         ----------
@@ -43,14 +63,43 @@ class TopicFilter:
             return False
         if name in self.topics:
             return True
+        service = service_of(name, type_name)
+        if service is not None:
+            return self._wants_service(service)
         if is_hidden(name) and not self.include_hidden:
             return False
         matches = self.regex is not None and self.regex.search(name)
         return bool(self.everything or type_name in self.types or matches)
 
+    def _wants_service(self, service: Service) -> bool:
+        if service.name in self.excluded_services:
+            return False
+        if self.excluded_regex is not None and self.excluded_regex.search(service.name):
+            return False
+        matches = self.regex is not None and self.regex.search(service.name)
+        return bool(self.all_services or service.name in self.services or matches)
+
     def _is_excluded(self, name: str, type_name: str) -> bool:
         matches = self.excluded_regex is not None and self.excluded_regex.search(name)
         return bool(matches or name in self.excluded_topics or type_name in self.excluded_types)
+
+
+def add_log_level_argument(parser: Any) -> None:
+    """
+    Add the option for the messages of the node.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb, or a group of it.
+
+    """
+    parser.add_argument(
+        '--log-level',
+        choices=LOG_LEVELS,
+        default='info',
+        help='print messages of at least this severity (default: %(default)s)',
+    )
 
 
 def regular_expression(text: str) -> re.Pattern[str]:

@@ -69,7 +69,7 @@ class PauseSwitch:
 
 def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
     """
-    Create the services `~/pause`, `~/resume` and `~/toggle_paused` (std_srvs/srv/Trigger).
+    Create the services `~/pause`, `~/resume`, `~/toggle_paused` and `~/is_paused`.
 
     Parameters
     ----------
@@ -79,20 +79,23 @@ def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
         The paused state that they change.
 
     """
-    from std_srvs.srv import Trigger
+    from rosbag2_interfaces.srv import IsPaused, Pause, Resume, TogglePaused
 
-    def offer(name: str, act: Callable[[], None]) -> None:
+    def offer(kind: Any, name: str, act: Callable[[], None]) -> None:
         def serve(_: Any, response: Any) -> Any:
             act()
-            response.success = True
-            response.message = 'paused' if switch.is_paused else 'running'
             return response
 
-        node.create_service(Trigger, f'~/{name}', serve)
+        node.create_service(kind, f'~/{name}', serve)
 
-    offer('pause', lambda: switch.change_to(True))
-    offer('resume', lambda: switch.change_to(False))
-    offer('toggle_paused', switch.toggle)
+    def tell(_: Any, response: Any) -> Any:
+        response.paused = switch.is_paused
+        return response
+
+    offer(Pause, 'pause', lambda: switch.change_to(True))
+    offer(Resume, 'resume', lambda: switch.change_to(False))
+    offer(TogglePaused, 'toggle_paused', switch.toggle)
+    node.create_service(IsPaused, '~/is_paused', tell)
 
 
 class Keyboard:

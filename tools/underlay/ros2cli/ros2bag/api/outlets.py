@@ -10,7 +10,9 @@ from typing import Any
 from rclpy.duration import Duration
 from rclpy.qos import ReliabilityPolicy
 from ros2bag.api.qos_profiles import playback_profile
+from ros2bag.api.requests import ServiceOutlet
 from ros2bag.storage.metadata import Topic
+from ros2bag.storage.service_events import service_of
 from ros2cli.messages.lookup import get_message, UnknownType
 
 __all__ = ['Outlets']
@@ -36,6 +38,9 @@ class Outlets:
         The new names of remapped topics by their recorded names.
     overrides
         QoS profiles by recorded topic name; other topics get `playback_profile`.
+    request_source
+        For services, whose recorded requests are sent instead of publishing their events: one of
+        `requests.SOURCES`; '' to publish the events.
 
     """
 
@@ -45,20 +50,27 @@ class Outlets:
         topics: Iterable[Topic],
         names: Mapping[str, str],
         overrides: Mapping[str, Any],
+        request_source: str = '',
     ) -> None:
         self._node = node
         self._publishers: dict[str, Any] = {}
+        self._services: dict[str, ServiceOutlet] = {}
+        self._request_source = request_source
         for topic in topics:
-            publisher, reason = self._create(topic, names, overrides)
+            if request_source and service_of(topic.name, topic.type_name):
+                reason = self._add_service(topic, names.get(topic.name, topic.name))
+                publisher = None
+            else:
+                publisher, reason = self._create(topic, names, overrides)
             if reason:
                 node.get_logger().warning(f"Topic '{topic.name}' is not played: {reason}")
-            else:
+            elif publisher is not None:
                 self._publishers[topic.name] = publisher
 
     @property
     def topics(self) -> list[str]:
         """Return the recorded names of the topics that are published."""
-        return list(self._publishers)
+        return [*self._publishers, *self._services]
 
     def publish(self, topic: str, data: bytes) -> None:
         """
@@ -72,11 +84,12 @@ class Outlets:
             The message in CDR, with its encapsulation header.
 
         """
-        self._publishers[topic].publish(data)
+        outlet = self._services.get(topic) or self._publishers[topic]
+        outlet.publish(data)
 
     def wait_for_subscribers(self, *others: Any) -> None:
         """
-        Wait until the existing subscribers are matched with the publishers, at most 2 s.
+        Wait until the existing subscribers and servers are matched, at most 2 s.
 
         Parameters
         ----------
@@ -88,13 +101,15 @@ class Outlets:
         end = time.monotonic() + MATCH_S
         publishers = (*self._publishers.values(), *others)
         waiting = [each for each in publishers if graph.count_subscribers(each.topic_name)]
-        while waiting and time.monotonic() < end:
+        servers = [each for each in self._services.values() if graph.count_services(each.service)]
+        while (waiting or servers) and time.monotonic() < end:
             self._node.spin_once(PERIOD_S)
             waiting = [each for each in waiting if not each.get_subscription_count()]
+            servers = [each for each in servers if not each.is_ready()]
 
     def wait_until_acked(self, limit_ms: float) -> None:
         """
-        Wait until all reliable subscribers have acknowledged all messages.
+        Wait until all reliable subscribers have acknowledged all messages, and servers answered.
 
         Parameters
         ----------
@@ -103,11 +118,23 @@ class Outlets:
 
         """
         end = time.monotonic() + (limit_ms / 1e3 or float('inf'))
+        for service in self._services.values():
+            service.wait_until_answered(end)
         for publisher in self._publishers.values():
             reliability = publisher.qos_profile.reliability
             while reliability == ReliabilityPolicy.RELIABLE and time.monotonic() < end:
                 if publisher.wait_for_all_acked(Duration(seconds=PERIOD_S)):
                     break
+
+    def _add_service(self, topic: Topic, name: str) -> str:
+        """Create the client of a service; return '' or the reason why that is not possible."""
+        try:
+            self._services[topic.name] = ServiceOutlet(
+                self._node, topic, name, self._request_source
+            )
+        except (UnknownType, RuntimeError) as error:
+            return str(error)
+        return ''
 
     def _create(
         self, topic: Topic, names: Mapping[str, str], overrides: Mapping[str, Any]

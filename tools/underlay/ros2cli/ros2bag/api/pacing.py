@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 import time
 from typing import Any
+
+from ros2bag.storage.latched import RecordedMessage
 
 __all__ = ['CLOCK_TOPIC', 'ClockOutlet', 'Pacing']
 
 CLOCK_TOPIC = '/clock'
 NS_PER_S = 1_000_000_000
+NEVER_NS = 2**63 - 1
 
 
 class Pacing:
@@ -26,6 +29,11 @@ class Pacing:
     now_ns
         A monotonic clock, in ns.
 
+    Attributes
+    ----------
+    changes
+        How often the recorded time or the rate was changed.
+
     """
 
     def __init__(
@@ -36,6 +44,7 @@ class Pacing:
         self._anchor_recorded_ns = recorded_ns
         self._anchor_ns = now_ns()
         self._is_held = False
+        self.changes = 0
 
     @property
     def rate(self) -> float:
@@ -92,6 +101,7 @@ class Pacing:
         """
         self._anchor_recorded_ns = recorded_ns
         self._anchor_ns = self._now_ns()
+        self.changes += 1
 
     def set_rate(self, rate: float) -> None:
         """
@@ -109,7 +119,7 @@ class Pacing:
 
 class ClockOutlet:
     """
-    Publishes the recorded time at a fixed rate, also while playback is paused.
+    Publishes the recorded time: at a fixed rate, also while playback is paused, or with messages.
 
     Parameters
     ----------
@@ -118,7 +128,9 @@ class ClockOutlet:
     topic
         The name of the topic, which is `/clock` unless it is remapped.
     rate_hz
-        How often to publish, in Hz of wall time.
+        How often to publish, in Hz of wall time; 0 for only with messages.
+    triggers
+        The topics before each of whose messages the time is published.
 
     Attributes
     ----------
@@ -127,12 +139,15 @@ class ClockOutlet:
 
     """
 
-    def __init__(self, node: Any, topic: str, rate_hz: float) -> None:
+    def __init__(
+        self, node: Any, topic: str, rate_hz: float, triggers: Collection[str] = ()
+    ) -> None:
         from rosgraph_msgs.msg import Clock
 
         self._clock = Clock()
         self.publisher = node.create_publisher(Clock, topic, 10)
-        self._period_ns = int(NS_PER_S / rate_hz)
+        self._period_ns = int(NS_PER_S / rate_hz) if rate_hz else NEVER_NS
+        self._triggers = frozenset(triggers)
         self._next_ns = 0
 
     def tick(self, pacing: Pacing, next_ns: int) -> int:
@@ -154,10 +169,25 @@ class ClockOutlet:
 
         """
         now_ns = time.monotonic_ns()
+        if self._period_ns == NEVER_NS:
+            return NEVER_NS
         if now_ns >= self._next_ns:
             self.publish(min(pacing.recorded_now_ns, next_ns))
             self._next_ns = max(self._next_ns + self._period_ns, now_ns)
         return self._next_ns - now_ns
+
+    def announce(self, message: RecordedMessage) -> None:
+        """
+        Publish the recorded time of a message that is about to be played, if its topic asks for it.
+
+        Parameters
+        ----------
+        message
+            The message.
+
+        """
+        if message.topic in self._triggers:
+            self.publish(message.log_ns)
 
     def publish(self, recorded_ns: int) -> None:
         """

@@ -6,31 +6,41 @@ from __future__ import annotations
 import argparse
 
 from ros2bag.api.common_arguments import (
+    add_log_level_argument,
     count,
     not_negative,
-    Refused,
     regular_expression,
     TopicFilter,
 )
+from ros2bag.storage import BagError
 from ros2cli.arguments import positive_number
 from ros2cli.names import absolute
 
 __all__ = [
     'AS_FAST_AS_POSSIBLE',
     'add_bag_argument',
+    'add_bags_arguments',
     'add_choice_arguments',
+    'add_input_argument',
     'add_play_arguments',
     'add_span_arguments',
+    'bag_paths',
+    'end_of_playback_ns',
     'filter_of',
+    'publishes_clock',
     'remaps',
+    'request_source',
 ]
 
 CLOCK_HZ = 40.0
-SERVICES = 'only topics are played, not services'
+FOR_EVER_NS = 2**63 - 1
+NS_PER_S = 1_000_000_000
 AS_FAST_AS_POSSIBLE = {
     'rate': float('inf'),
     'loop': False,
     'clock': None,
+    'clock_topics': [],
+    'clock_topics_all': False,
     'delay': 0.0,
     'start_paused': False,
     'disable_keyboard_controls': True,
@@ -48,9 +58,80 @@ def add_bag_argument(parser: argparse.ArgumentParser) -> None:
 
     """
     parser.add_argument('bag_path', help='the folder of the bag, or one of its files')
+    _add_storage_argument(parser)
+
+
+def add_bags_arguments(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the arguments for the bags to play.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument('bag_path', nargs='?', help='the folder of the bag, or one of its files')
+    add_input_argument(parser)
+    _add_storage_argument(parser)
+
+
+def add_input_argument(parser: argparse.ArgumentParser) -> None:
+    """
+    Add the option for one of several bags.
+
+    Parameters
+    ----------
+    parser
+        The parser of the verb.
+
+    """
+    parser.add_argument(
+        '-i',
+        '--input',
+        nargs='+',
+        action='append',
+        default=[],
+        metavar=('BAG', 'STORAGE'),
+        help='one of several bags, which are merged by time; the storage can only be mcap',
+    )
+
+
+def _add_storage_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
     )
+
+
+def bag_paths(args: argparse.Namespace) -> list[str]:
+    """
+    Return the paths of the bags to read.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_bags_arguments`, or of `add_bag_argument`.
+
+    Raises
+    ------
+    BagError
+        There is none, there are both kinds, or a storage is not MCAP.
+
+    """
+    inputs: list[list[str]] = getattr(args, 'input', [])
+    path = getattr(args, 'bag_path', None)
+    if path is None and not inputs:
+        raise BagError('Name a bag: its folder, or several with -i')
+    if path is not None and inputs:
+        raise BagError(f"Name all bags with -i, or one without: '{path}' is a second way")
+    for bag, *storage in inputs:
+        if storage not in ([], ['mcap']):
+            raise BagError(
+                f"The storage '{' '.join(storage)}' of '{bag}' is not supported, only mcap is. "
+                f'Convert it first: rosbags-convert --src {bag} --dst {bag}_mcap '
+                '--dst-storage mcap. For several bags, repeat -i'
+            )
+    return [words[0] for words in inputs] or [str(path)]
 
 
 def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
@@ -67,20 +148,41 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
         '--topics', nargs='+', default=[], metavar='TOPIC', help='publish only these topics'
     )
     parser.add_argument(
+        '--services', nargs='+', default=[], metavar='SERVICE', help='publish only these services'
+    )
+    parser.add_argument(
         '-e',
         '--regex',
         type=regular_expression,
-        help='publish only topics in whose names this regular expression is found',
+        help='publish only topics and services in whose names this regular expression is found',
     )
     parser.add_argument(
         '-x',
         '--exclude-regex',
         metavar='REGEX',
         type=regular_expression,
-        help='leave out the topics in whose names this regular expression is found',
+        help='leave out the topics and services in whose names this regular expression is found',
     )
     parser.add_argument(
         '--exclude-topics', nargs='+', default=[], metavar='TOPIC', help='leave out these topics'
+    )
+    parser.add_argument(
+        '--exclude-services',
+        nargs='+',
+        default=[],
+        metavar='SERVICE',
+        help='leave out these services',
+    )
+    parser.add_argument(
+        '--publish-service-requests',
+        action='store_true',
+        help='send the requests of recorded services, instead of publishing their events',
+    )
+    parser.add_argument(
+        '--service-requests-source',
+        choices=['service_introspection', 'client_introspection'],
+        default='service_introspection',
+        help='whose events have the requests: those of the server, or those of the clients',
     )
     parser.add_argument(
         '-m',
@@ -104,6 +206,12 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
         '0 waits forever (default: 1000)',
         default=1000,
     )
+    parser.add_argument(
+        '--storage-config-file',
+        metavar='FILE',
+        help='accepted for scripts: there are no settings for reading MCAP files',
+    )
+    add_log_level_argument(parser)
 
 
 def add_play_arguments(parser: argparse.ArgumentParser) -> None:
@@ -124,13 +232,26 @@ def add_play_arguments(parser: argparse.ArgumentParser) -> None:
         help='how many times as fast as recorded (default: %(default)s)',
     )
     parser.add_argument('-l', '--loop', action='store_true', help='start again at the end')
-    parser.add_argument(
+    clock = parser.add_mutually_exclusive_group()
+    clock.add_argument(
         '--clock',
         nargs='?',
         type=positive_number,
         const=CLOCK_HZ,
         metavar='HZ',
         help=f'publish the recorded time on /clock, {CLOCK_HZ:g} times a second if not given',
+    )
+    clock.add_argument(
+        '--clock-topics',
+        nargs='+',
+        default=[],
+        metavar='TOPIC',
+        help='publish the recorded time on /clock before each message of these topics',
+    )
+    clock.add_argument(
+        '--clock-topics-all',
+        action='store_true',
+        help='publish the recorded time on /clock before each message',
     )
     parser.add_argument(
         '-d',
@@ -158,8 +279,11 @@ def add_play_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='N',
         help='accepted for scripts: messages are read when they are needed',
     )
-    for name in ('--services', '--exclude-services', '--publish-service-requests'):
-        parser.add_argument(name, action=Refused, reason=SERVICES)
+    parser.add_argument(
+        '--disable-loan-message',
+        action='store_true',
+        help='accepted for scripts: messages are never loaned',
+    )
     parser.set_defaults(num_messages=None)
 
 
@@ -185,8 +309,72 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=-1.0,
         metavar='SECONDS',
-        help='stop after this much recorded time; negative for no limit (default: no limit)',
+        help='stop after this much recorded time; negative for no limit (default: no limit). With '
+        '--playback-until-... the later end counts',
     )
+    until = parser.add_mutually_exclusive_group()
+    until.add_argument(
+        '--playback-until-sec',
+        type=float,
+        default=-1.0,
+        metavar='SECONDS',
+        help='stop at this recorded time, in seconds since 1970; negative for no limit',
+    )
+    until.add_argument(
+        '--playback-until-nsec',
+        type=int,
+        default=-1,
+        metavar='NANOSECONDS',
+        help='the same in nanoseconds',
+    )
+
+
+def end_of_playback_ns(args: argparse.Namespace, start_ns: int) -> int:
+    """
+    Compute the recorded time after which nothing is played, in ns since the epoch.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_span_arguments`.
+    start_ns
+        The recorded time at the start.
+
+    """
+    ends = []
+    if args.playback_duration >= 0:
+        ends.append(start_ns + int(args.playback_duration * NS_PER_S))
+    if args.playback_until_sec >= 0:
+        ends.append(int(args.playback_until_sec * NS_PER_S))
+    if args.playback_until_nsec >= 0:
+        ends.append(args.playback_until_nsec)
+    return max(ends, default=FOR_EVER_NS)
+
+
+def publishes_clock(args: argparse.Namespace) -> bool:
+    """
+    Whether the recorded time is published.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_play_arguments`.
+
+    """
+    return bool(args.clock or args.clock_topics or args.clock_topics_all)
+
+
+def request_source(args: argparse.Namespace) -> str:
+    """
+    Return whose recorded requests are sent; '' to publish the events of services instead.
+
+    Parameters
+    ----------
+    args : argparse.Namespace
+        The options of `add_choice_arguments`.
+
+    """
+    return args.service_requests_source if args.publish_service_requests else ''
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
@@ -204,8 +392,12 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
         A given topic name is not valid.
 
     """
+    everything = not (args.topics or args.services) and args.regex is None
     return TopicFilter(
-        everything=not args.topics and args.regex is None,
+        everything=everything,
+        all_services=everything,
+        services=frozenset(absolute(name, 'service') for name in args.services),
+        excluded_services=frozenset(absolute(name, 'service') for name in args.exclude_services),
         topics=frozenset(absolute(name) for name in args.topics),
         regex=args.regex,
         excluded_topics=frozenset(absolute(name) for name in args.exclude_topics),

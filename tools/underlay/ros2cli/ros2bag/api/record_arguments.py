@@ -7,6 +7,7 @@ import argparse
 from datetime import datetime
 
 from ros2bag.api.common_arguments import (
+    add_log_level_argument,
     count,
     not_negative,
     Refused,
@@ -23,8 +24,9 @@ EPILOG = """\
 Ctrl-C, SIGTERM and SIGHUP end the recording, with status 0 if the bag is
 complete. After kill -9 or a loss of power, "ros2 bag recover" saves all but
 the last 0.2 seconds."""
-SERVICES = 'only topics are recorded, not services or actions'
-SNAPSHOT = 'everything is recorded; split the recording with -d and delete what is too old'
+ACTIONS = 'actions cannot be recorded in ROS 2 Jazzy, but their hidden topics can, by name'
+SNAPSHOT_BYTES = 100 * 1024 * 1024
+SCRIPTS = 'accepted for scripts: chunks are compressed when they are written'
 
 
 def add_record_arguments(parser: argparse.ArgumentParser) -> None:
@@ -51,10 +53,19 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         'topics_positional', nargs='*', metavar='topic', help='a topic to record, as with --topics'
     )
     group.add_argument(
-        '-a', '--all', '--all-topics', action='store_true', help='record all topics'
+        '-a', '--all', action='store_true', help='record all topics and services'
+    )
+    group.add_argument('--all-topics', action='store_true', help='record all topics')
+    group.add_argument(
+        '--all-services',
+        action='store_true',
+        help='record all services whose introspection is on, by the topics of their events',
     )
     group.add_argument(
         '--topics', nargs='+', default=[], metavar='TOPIC', help='record these topics'
+    )
+    group.add_argument(
+        '--services', nargs='+', default=[], metavar='SERVICE', help='record these services'
     )
     group.add_argument(
         '--topic-types', nargs='+', default=[], metavar='TYPE', help='record topics of these types'
@@ -63,7 +74,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         '-e',
         '--regex',
         type=regular_expression,
-        help='record the topics in whose names this regular expression is found',
+        help='record the topics and services in whose names this regular expression is found',
     )
     group.add_argument(
         '-x',
@@ -71,10 +82,17 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         '--exclude',
         metavar='REGEX',
         type=regular_expression,
-        help='leave out the topics in whose names this regular expression is found',
+        help='leave out the topics and services in whose names this regular expression is found',
     )
     group.add_argument(
         '--exclude-topics', nargs='+', default=[], metavar='TOPIC', help='leave out these topics'
+    )
+    group.add_argument(
+        '--exclude-services',
+        nargs='+',
+        default=[],
+        metavar='SERVICE',
+        help='leave out these services',
     )
     group.add_argument(
         '--exclude-topic-types',
@@ -91,6 +109,11 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
         action='store_true',
         help='include topics without publishers in the list of recorded topics',
     )
+    group.add_argument(
+        '--ignore-leaf-topics',
+        action='store_true',
+        help='leave out topics that nobody else subscribes to, until somebody does',
+    )
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -102,6 +125,19 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
+    )
+    group.add_argument(
+        '-f',
+        '--serialization-format',
+        choices=['cdr'],
+        default='cdr',
+        help='format of the messages: as they are sent',
+    )
+    group.add_argument(
+        '--storage-config-file',
+        metavar='FILE',
+        help='a YAML file with settings of the MCAP files: compression (None, Lz4, Zstd) and '
+        'chunkSize in bytes; they override the other options',
     )
     group.add_argument(
         '-b',
@@ -148,6 +184,11 @@ def _add_compression(parser: argparse.ArgumentParser) -> None:
         default='none',
         help='another way to choose the compression: %(choices)s',
     )
+    for name in ('--compression-queue-size', '--compression-threads'):
+        group.add_argument(name, type=count, default=0, metavar='N', help=SCRIPTS)
+    group.add_argument(
+        '--compression-threads-priority', type=int, default=0, metavar='N', help=SCRIPTS
+    )
 
 
 def _add_behaviour(parser: argparse.ArgumentParser) -> None:
@@ -185,18 +226,24 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '--max-cache-size',
         type=count,
-        default=0,
+        default=SNAPSHOT_BYTES,
         metavar='BYTES',
-        help='accepted for scripts: there is no cache, messages are on the disk after 0.1 s',
+        help='how much is kept in snapshot mode (default: %(default)s). Otherwise there is no '
+        'cache: messages are on the disk after 0.1 s',
     )
+    group.add_argument(
+        '--snapshot-mode',
+        action='store_true',
+        help='record nothing until the service ~/snapshot is called, which writes the last messages',
+    )
+    add_log_level_argument(group)
     group.add_argument('-q', '--quiet', action='store_true', help='print warnings only')
 
 
 def _add_refused(parser: argparse.ArgumentParser) -> None:
     """Add the unsupported rosbag2 options, which are rejected with a reason."""
-    for name in ('--all-services', '--services', '--exclude-services', '--all-actions'):
-        parser.add_argument(name, action=Refused, reason=SERVICES)
-    parser.add_argument('--snapshot-mode', action=Refused, reason=SNAPSHOT)
+    for name in ('--all-actions', '--actions', '--exclude-actions'):
+        parser.add_argument(name, action=Refused, reason=ACTIONS)
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
@@ -215,7 +262,7 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
 
     """
     return TopicFilter(
-        everything=args.all,
+        everything=args.all or args.all_topics,
         topics=frozenset(absolute(name) for name in [*args.topics, *args.topics_positional]),
         types=frozenset(args.topic_types),
         regex=args.regex,
@@ -223,6 +270,9 @@ def filter_of(args: argparse.Namespace) -> TopicFilter:
         excluded_types=frozenset(args.exclude_topic_types),
         excluded_regex=args.exclude_regex,
         include_hidden=args.include_hidden_topics,
+        all_services=args.all or args.all_services,
+        services=frozenset(absolute(name, 'service') for name in args.services),
+        excluded_services=frozenset(absolute(name, 'service') for name in args.exclude_services),
     )
 
 
@@ -241,11 +291,16 @@ def usage_error(args: argparse.Namespace) -> str:
         The error message, or ''.
 
     """
-    chosen = [args.topics_positional, args.topics, args.topic_types, args.regex]
-    if args.all and any(chosen):
+    topics = [args.topics_positional, args.topics, args.topic_types, args.regex]
+    services = [args.services, args.regex]
+    if (args.all or args.all_topics) and any(topics):
         return 'Name topics, types or a regular expression, or all topics with -a, but not both.'
-    if not args.all and not any(chosen):
+    if (args.all or args.all_services) and any(services):
+        return 'Name services or a regular expression, or all services, but not both.'
+    if not any((args.all, args.all_topics, args.all_services, *topics, *services)):
         return 'Nothing to record: name topics after --topics, or record all of them with -a.'
+    if args.snapshot_mode and not args.max_cache_size:
+        return 'In snapshot mode --max-cache-size has to be above zero: it is what is kept.'
     if args.output == '':
         return 'The name of the output folder is empty: give one after -o, or omit -o.'
     if args.compression_mode in ('file', 'message') and not args.compression_format:

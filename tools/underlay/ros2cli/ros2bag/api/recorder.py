@@ -14,6 +14,7 @@ from ros2bag.api.qos_profiles import offered_by
 from ros2bag.storage.bag_writer import BagWriter
 from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import Topic
+from ros2bag.storage.snapshot import Snapshot
 from ros2cli.graph.graph import Graph
 from ros2cli.messages.lookup import get_message, UnknownType
 from ros2topic.api import get_topic_names_and_types
@@ -36,7 +37,7 @@ class Recorder:
     node
         The node that subscribes.
     writer
-        The bag that is written.
+        The bag that is written, or what keeps messages for it.
     topic_filter
         Which topics to record.
     switch
@@ -45,6 +46,8 @@ class Recorder:
         Whether messages are stamped with the time of `/clock` instead of their reception time.
     include_unpublished
         Whether topics without a publisher are added to the list of topics, too.
+    ignore_leaves
+        Whether topics are left out that nobody else subscribes to.
     overrides
         QoS profiles to subscribe with, by topic name.
 
@@ -58,12 +61,13 @@ class Recorder:
     def __init__(
         self,
         node: Any,
-        writer: BagWriter,
+        writer: BagWriter | Snapshot,
         topic_filter: TopicFilter,
         switch: PauseSwitch,
         *,
         use_sim_time: bool = False,
         include_unpublished: bool = False,
+        ignore_leaves: bool = False,
         overrides: dict[str, Any] | None = None,
     ) -> None:
         self._node = node
@@ -72,6 +76,7 @@ class Recorder:
         self._switch = switch
         self._use_sim_time = use_sim_time
         self._include_unpublished = include_unpublished
+        self._ignore_leaves = ignore_leaves
         self._overrides = overrides or {}
         self._topics: dict[str, RecordedTopic | None] = {}
         self._latched: set[str] = set()
@@ -88,7 +93,7 @@ class Recorder:
     @property
     def missing(self) -> list[str]:
         """Return the topics that were requested by name and have not appeared."""
-        return sorted(self._filter.topics.difference(self._topics))
+        return sorted(self._filter.named.difference(self._topics))
 
     def discover(self) -> None:
         """Subscribe to new topics, and adapt to changes of their publishers."""
@@ -101,7 +106,7 @@ class Recorder:
         """Record the latched messages that arrived during the pause that has ended."""
         held, self._held = self._held, []
         for message in held:
-            self._writer.write(message.logged_at(self._now_ns()))
+            self._writer.write(message.logged_at(self.now_ns()))
 
     def take_rest(self) -> None:
         """
@@ -125,9 +130,12 @@ class Recorder:
 
     def _has_changed(self, graph: Graph, name: str) -> bool:
         """Whether the publishers of a topic have changed since the last discovery."""
+        is_new = name not in self._topics
+        if self._ignore_leaves and is_new and not graph.count_subscribers(name):
+            return False
         count = graph.count_publishers(name)
         if count == self._publisher_counts.get(name, 0) and not (
-            self._include_unpublished and name not in self._topics
+            self._include_unpublished and is_new
         ):
             return False
         self._publisher_counts[name] = count
@@ -182,7 +190,7 @@ class Recorder:
             if self._end_ns is not None and info['received_timestamp'] > self._end_ns:
                 return
             self.received_count += 1
-            log_ns = self._now_ns() if self._use_sim_time else info['received_timestamp']
+            log_ns = self.now_ns() if self._use_sim_time else info['received_timestamp']
             sequence = info['publication_sequence_number'] or 0
             message = RecordedMessage(name, data, log_ns, info['source_timestamp'], sequence)
             if not self._switch.is_paused:
@@ -192,7 +200,8 @@ class Recorder:
 
         return receive
 
-    def _now_ns(self) -> int:
+    def now_ns(self) -> int:
+        """Return the time that a message gets now, in ns since the epoch."""
         if self._use_sim_time:
             return int(self._node.get_clock().now().nanoseconds)
         return time.time_ns()

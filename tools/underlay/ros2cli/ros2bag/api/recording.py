@@ -15,15 +15,22 @@ from ros2bag.api.control import Keyboard, offer_pause_services, PauseSwitch, SPA
 from ros2bag.api.qos_profiles import read_overrides
 from ros2bag.api.record_arguments import compression_of, filter_of, output_folder
 from ros2bag.api.recorder import Recorder
+from ros2bag.api.storage_config import read_storage_config
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition, definition_of
+from ros2bag.storage.service_events import EVENT_SUFFIX
+from ros2bag.storage.snapshot import Snapshot
 from ros2cli.node.direct import DirectNode
 from ros2cli.waiting import Patience
 from ros_environment.suggestions import did_you_mean
+from rosbag2_interfaces.msg import WriteSplitEvent
+from rosbag2_interfaces.srv import Snapshot as SnapshotService
+from rosbag2_interfaces.srv import SplitBagfile
 
 __all__ = ['record']
 
 PERIOD_S = 0.02
+SPLIT_TOPIC = 'events/write_split'
 NS_PER_S = 1_000_000_000
 
 
@@ -50,8 +57,8 @@ def record(args: argparse.Namespace) -> None:
     overrides = read_overrides(args.qos_profile_overrides_path)
     stop = StopSignals()
     with DirectNode(args, node_name=args.node_name) as node, stop:
-        if args.quiet:
-            node.get_logger().set_level(LoggingSeverity.WARN)
+        level = 'warn' if args.quiet else args.log_level
+        node.get_logger().set_level(LoggingSeverity[level.upper()])
         _wait_for_clock(node, args.use_sim_time, stop)
         stop.raise_if_any()
         _record(node, topic_filter, overrides, args, stop)
@@ -66,18 +73,26 @@ def _record(
 ) -> None:
     """Create the bag, record until a signal arrives, and finish the bag in any case."""
     folder = output_folder(args)
-    writer = BagWriter(folder, _options(args), find_definition)
+    events = node.create_publisher(WriteSplitEvent, SPLIT_TOPIC, 10)
+
+    def tell_of_split(closed: str, opened: str) -> None:
+        events.publish(WriteSplitEvent(closed_file=closed, opened_file=opened))
+
+    writer = BagWriter(folder, _options(args), find_definition, tell_of_split)
+    snapshot = Snapshot(writer, args.max_cache_size) if args.snapshot_mode else None
     switch = PauseSwitch(args.start_paused, node.get_logger().info)
-    offer_pause_services(node, switch)
     recorder = Recorder(
         node,
-        writer,
+        snapshot or writer,
         topic_filter,
         switch,
         use_sim_time=args.use_sim_time,
         include_unpublished=args.include_unpublished_topics,
+        ignore_leaves=args.ignore_leaf_topics,
         overrides=overrides,
     )
+    offer_pause_services(node, switch)
+    _offer_services(node, recorder, writer, snapshot)
     try:
         _run(node, recorder, writer, switch, args, stop)
     finally:
@@ -85,6 +100,29 @@ def _record(
     node.get_logger().info(f"Recorded {writer.message_count} messages to '{folder}'.")
     if recorder.missing:
         node.get_logger().warning(f'Not recorded: {", ".join(recorder.missing)} never appeared.')
+
+
+def _offer_services(
+    node: Any, recorder: Recorder, writer: BagWriter, snapshot: Snapshot | None
+) -> None:
+    """Offer to split the recording and, in snapshot mode, to write what is kept."""
+
+    def split(_: Any, response: Any) -> Any:
+        writer.split(recorder.now_ns())
+        return response
+
+    node.create_service(SplitBagfile, '~/split_bagfile', split)
+    if snapshot is not None:
+        _offer_snapshots(node, snapshot)
+
+
+def _offer_snapshots(node: Any, snapshot: Snapshot) -> None:
+    def take(_: Any, response: Any) -> Any:
+        node.get_logger().info(f'Snapshot: {snapshot.take()} messages.')
+        response.success = True
+        return response
+
+    node.create_service(SnapshotService, '~/snapshot', take)
 
 
 def find_definition(type_name: str) -> Definition:
@@ -107,7 +145,7 @@ def find_definition(type_name: str) -> Definition:
 
 def _options(args: argparse.Namespace) -> WriterOptions:
     return WriterOptions(
-        compression=compression_of(args),
+        **{'compression': compression_of(args), **read_storage_config(args.storage_config_file)},
         max_bytes=args.max_bag_size,
         max_duration_ns=int(args.max_bag_duration * NS_PER_S),
         ros_distro=os.environ.get('ROS_DISTRO', DEFAULT_DISTRO),
@@ -132,11 +170,12 @@ def _run(
     stop: StopSignals,
 ) -> None:
     logger = node.get_logger()
-    logger.info(
-        'Paused: press SPACE or call the service ~/resume to start.'
-        if args.start_paused
-        else 'Recording...'
-    )
+    if args.start_paused:
+        logger.info('Paused: press SPACE or call the service ~/resume to start.')
+    elif args.snapshot_mode:
+        logger.info('Waiting for the service ~/snapshot, to write the last messages.')
+    else:
+        logger.info('Recording...')
     patience = Patience('a topic to record', lambda: _missing_text(node, recorder))
     # Without discovery the topics are read once, when the graph is complete.
     period_s = float('inf') if args.no_discovery else args.polling_interval / 1e3
@@ -161,5 +200,12 @@ def _run(
 def _missing_text(node: Any, recorder: Recorder) -> str:
     """Format the missing requested topics, with suggestions for misspelt names."""
     known = [name for name, _ in node.get_topic_names_and_types()]
+    services = [name for name in recorder.missing if name.endswith(EVENT_SUFFIX)]
+    if services:
+        names = ', '.join(name.removesuffix(EVENT_SUFFIX) for name in services)
+        return (
+            f'No events yet of the service: {names}. Its server or a client has to turn its '
+            'introspection on, with configure_introspection()'
+        )
     missing = (f'{name}. {did_you_mean(name, known)}'.rstrip() for name in recorder.missing)
     return ' '.join(f'Not there yet: {text}' for text in missing)

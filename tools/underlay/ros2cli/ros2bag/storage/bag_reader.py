@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import zlib
 
 from ros2bag.storage import BagError
+from ros2bag.storage.definitions import Definition
 from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import (
     BagMetadata,
@@ -128,6 +129,27 @@ class BagReader:
                         message.publish_time,
                         message.sequence,
                     )
+
+    def definitions(self) -> dict[str, Definition]:
+        """
+        Return the definitions of the types, as they were recorded, by their names.
+
+        Raises
+        ------
+        BagError
+            A file is missing or unreadable; BrokenFile if it is truncated or damaged.
+
+        """
+        from mcap.reader import SeekingReader
+        from ros2bag.storage.damage import BoundedFile, damage_told
+
+        found = {}
+        for path in self._paths():
+            with damage_told(path), BoundedFile(path) as stream:
+                summary = SeekingReader(stream).get_summary()
+                for schema in summary.schemas.values() if summary else ():
+                    found[schema.name] = Definition(schema.encoding, schema.data.decode())
+        return found
 
     def _paths(self) -> list[str]:
         return [os.path.join(self._folder, file.path) for file in self.metadata.files]

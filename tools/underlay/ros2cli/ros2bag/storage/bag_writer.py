@@ -12,7 +12,7 @@ from typing import NoReturn
 from ros2bag.storage import BagError
 from ros2bag.storage.definitions import Definition
 from ros2bag.storage.latched import LatchedMessages, RecordedMessage
-from ros2bag.storage.mcap_file import McapFile
+from ros2bag.storage.mcap_file import CHUNK_BYTES, McapFile
 from ros2bag.storage.metadata import BagMetadata, FILE_NAME, merged, metadata_to_text, Topic
 
 __all__ = ['RESERVE_NAME', 'BagWriter', 'Reserve', 'WriterOptions']
@@ -29,6 +29,7 @@ class WriterOptions:
     compression: str = 'none'
     max_bytes: int = 0
     max_duration_ns: int = 0
+    chunk_bytes: int = CHUNK_BYTES
     ros_distro: str = DEFAULT_DISTRO
     custom_data: Mapping[str, str] = field(default_factory=dict)
 
@@ -47,6 +48,8 @@ class BagWriter:
         Compression, limits and custom data.
     find_definition
         Returns the definition of a message type such as `std_msgs/msg/String`.
+    on_split
+        Called with the paths of the file that is finished and of the following one.
 
     Raises
     ------
@@ -60,7 +63,9 @@ class BagWriter:
         folder: str,
         options: WriterOptions,
         find_definition: Callable[[str], Definition],
+        on_split: Callable[[str, str], object] = lambda closed, opened: None,
     ) -> None:
+        self._on_split = on_split
         self._folder = os.path.abspath(folder)
         self._options = options
         self._find_definition = find_definition
@@ -120,6 +125,27 @@ class BagWriter:
         if topic.is_latched:
             self._latched.add(message, topic)
 
+    def split(self, now_ns: int) -> None:
+        """
+        Start the next file, unless this one is still empty.
+
+        Parameters
+        ----------
+        now_ns
+            The time at which latched messages are repeated in it, in ns since the epoch.
+
+        Raises
+        ------
+        BagError
+            The disk is full or the file too large; the recording has ended.
+
+        """
+        if self._file.message_count:
+            try:
+                self._split(now_ns)
+            except OSError as error:
+                self._stop(error)
+
     def flush_if_due(self) -> None:
         """Write the current chunk if it is old enough."""
         try:
@@ -159,12 +185,15 @@ class BagWriter:
             os.rmdir(self._folder)
             raise _not_writable(folder, error) from error
 
+    def _path(self, number: int) -> str:
+        return os.path.join(self._folder, f'{os.path.basename(self._folder)}_{number}.mcap')
+
     def _create_file(self, number: int) -> McapFile:
-        name = f'{os.path.basename(self._folder)}_{number}.mcap'
         return McapFile(
-            os.path.join(self._folder, name),
+            self._path(number),
             compression=self._options.compression,
             ros_distro=self._options.ros_distro,
+            chunk_bytes=self._options.chunk_bytes,
         )
 
     def _is_full(self, now_ns: int) -> bool:
@@ -188,6 +217,8 @@ class BagWriter:
             self._file.add_topic(topic, self._find_definition(topic.type_name))
         for message in self._latched.alive(now_ns):
             self._file.write(*message.logged_at(now_ns))
+        number = len(self._finished)
+        self._on_split(self._path(number - 1), self._path(number))
 
     def _write_metadata(self) -> None:
         path = os.path.join(self._folder, FILE_NAME)

@@ -15,6 +15,7 @@ PRIMITIVES = frozenset(
     'bool byte char float32 float64 int8 uint8 int16 uint16 int32 uint32 int64 uint64 '
     'string wstring'.split()
 )
+END_OF_REQUEST = re.compile(r'^---.*$\n?', re.MULTILINE)
 FIELD_TYPE = re.compile(r'\s*([A-Za-z][A-Za-z0-9_/]*)')
 
 
@@ -32,7 +33,7 @@ def definition_of(type_name: str, find_share: Callable[[str], str]) -> Definitio
     Parameters
     ----------
     type_name
-        `package/msg/Name` or `package/Name`.
+        `package/msg/Name`, `package/Name`, or `package/srv/Name_Event` for the events of a service.
     find_share
         Returns the share folder of a package; raises LookupError if the package is not installed.
 
@@ -48,35 +49,64 @@ def definition_of(type_name: str, find_share: Callable[[str], str]) -> Definitio
         return Definition()
 
 
+class _Type(NamedTuple):
+    """A type: a message, or the request, response or event of a service."""
+
+    package: str
+    kind: str
+    name: str
+
+    @property
+    def title(self) -> str:
+        """Return the name by which a definition refers to it."""
+        kind = '' if self.kind == 'msg' else f'{self.kind}/'
+        return f'{self.package}/{kind}{self.name}'
+
+
 def _sections(type_name: str, find_share: Callable[[str], str]) -> Iterator[str]:
-    waiting = [_package_and_name(type_name)]
+    waiting = [_type_of(type_name)]
     seen = set(waiting)
-    for index, (package, name) in enumerate(waiting):
-        text = _read(find_share(package), name)
-        yield f'MSG: {package}/{name}\n{text}' if index else text
-        for dependency in _dependencies(text, package):
+    for index, each in enumerate(waiting):
+        text = _read(find_share(each.package), each)
+        yield f'MSG: {each.title}\n{text}' if index else text
+        for dependency in _dependencies(text, each.package):
             if dependency not in seen:
                 seen.add(dependency)
                 waiting.append(dependency)
 
 
-def _read(share: str, name: str) -> str:
-    with open(os.path.join(share, 'msg', f'{name}.msg'), encoding='utf-8') as stream:
+def _read(share: str, wanted: _Type) -> str:
+    """Return the definition of a type, without those of nested ones."""
+    if wanted.kind == 'msg':
+        return _content(share, 'msg', wanted.name)
+    service, _, part = wanted.name.rpartition('_')
+    request, response = END_OF_REQUEST.split(_content(share, 'srv', service), maxsplit=1)
+    start = f'{wanted.package}/srv/{service}'
+    return {
+        'Request': request,
+        'Response': response,
+        'Event': f'service_msgs/ServiceEventInfo info\n{start}_Request[<=1] request\n'
+        f'{start}_Response[<=1] response\n',
+    }[part]
+
+
+def _content(share: str, kind: str, name: str) -> str:
+    with open(os.path.join(share, kind, f'{name}.{kind}'), encoding='utf-8') as stream:
         return stream.read()
 
 
-def _dependencies(text: str, package: str) -> Iterator[tuple[str, str]]:
+def _dependencies(text: str, package: str) -> Iterator[_Type]:
     """Yield the nested message types of the fields."""
     for line in text.splitlines():
         match = FIELD_TYPE.match(line)
         if match and match[1] not in PRIMITIVES:
             name = match[1]
-            yield _package_and_name(name) if '/' in name else (package, name)
+            yield _type_of(name) if '/' in name else _Type(package, 'msg', name)
 
 
-def _package_and_name(type_name: str) -> tuple[str, str]:
-    """Return the parts of `package/msg/Name` or `package/Name`; other types have no .msg file."""
+def _type_of(type_name: str) -> _Type:
+    """Return the parts of `package/msg/Name` or `package/Name`; only services have others."""
     package, *kind, name = type_name.split('/')
-    if kind not in ([], ['msg']):
+    if kind not in ([], ['msg'], ['srv']):
         raise ValueError(type_name)
-    return package, name
+    return _Type(package, kind[0] if kind else 'msg', name)

@@ -23,7 +23,7 @@ from ros2bag.storage.metadata import (
 )
 from ros2bag.storage.offered_qos import qos_to_text
 
-__all__ = ['McapFile', 'PatientFile', 'is_being_written']
+__all__ = ['CHUNK_BYTES', 'McapFile', 'PatientFile', 'is_being_written']
 
 COMPRESSIONS = {
     'none': CompressionType.NONE,

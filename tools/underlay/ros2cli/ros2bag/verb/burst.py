@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 
 from ros2bag.api.play_arguments import (
-    add_bag_argument,
+    add_bags_arguments,
     add_choice_arguments,
     add_span_arguments,
     AS_FAST_AS_POSSIBLE,
@@ -28,7 +28,7 @@ class BurstVerb(VerbExtension):
             As for `VerbExtension.add_arguments`.
 
         """
-        add_bag_argument(parser)
+        add_bags_arguments(parser)
         add_choice_arguments(parser)
         add_span_arguments(parser)
         parser.add_argument(

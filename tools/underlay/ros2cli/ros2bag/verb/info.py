@@ -11,6 +11,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from ros2bag.api.play_arguments import add_bag_argument
+from ros2bag.storage.service_events import count_calls, service_of
 from ros2bag.verb import VerbExtension
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ class InfoVerb(VerbExtension):
             '-v',
             '--verbose',
             action='store_true',
-            help='print for each topic its average rate, type hash and quality of service as well',
+            help='print for each topic its average rate, type hash and quality of service as well, and '
+            'for each service its requests and responses, which needs a look at all of its events',
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:
@@ -88,7 +90,10 @@ def _info_text(reader: BagReader, *, verbose: bool = False) -> str:
         Several lines, without a newline at the end.
 
     """
+    services = _services(reader, verbose)
     rows = [*_rows(reader), ('Topic information', _topics(reader.metadata, verbose))]
+    rows += [('Service', [str(len(services))])]
+    rows += [('Service information', services)] if services else []
     return '\n'.join(_row(title, lines) for title, lines in rows)
 
 
@@ -102,7 +107,34 @@ def _topic_names_text(reader: BagReader) -> str:
         The bag.
 
     """
-    return '\n'.join(each.topic.name for each in reader.metadata.topics)
+    return '\n'.join(each.topic.name for each in _plain_topics(reader.metadata))
+
+
+def _plain_topics(metadata: BagMetadata) -> list[TopicInformation]:
+    """Return the topics without those of services' events."""
+    return [
+        each for each in metadata.topics if not service_of(each.topic.name, each.topic.type_name)
+    ]
+
+
+def _services(reader: BagReader, verbose: bool) -> list[str]:
+    """Format the services whose events were recorded, with their calls if that is wanted."""
+    lines = []
+    for each in reader.metadata.topics:
+        service = service_of(each.topic.name, each.topic.type_name)
+        if service is None:
+            continue
+        calls = ''
+        if verbose:
+            events = (message.data for message in reader.messages([each.topic.name]))
+            requests, responses = count_calls(events)
+            calls = f'Request Count: {requests} | Response Count: {responses} | '
+        lines.append(
+            f'Service: {service.name} | Type: {service.type_name} | '
+            f'Event Count: {each.message_count} | {calls}'
+            f'Serialization Format: {each.topic.serialization_format}'
+        )
+    return lines
 
 
 def human_size(size_bytes: float) -> str:
@@ -139,13 +171,14 @@ def _rows(reader: BagReader) -> Iterator[tuple[str, list[str]]]:
 
 
 def _row(title: str, lines: list[str]) -> str:
-    heads = [f'{title}:'.ljust(COLUMN), *(' ' * COLUMN for _ in lines[1:])]
+    width = max(COLUMN, len(title) + 2)
+    heads = [f'{title}:'.ljust(width), *(' ' * width for _ in lines[1:])]
     return '\n'.join(f'{head}{line}'.rstrip() for head, line in zip(heads, lines or ['']))
 
 
 def _topics(metadata: BagMetadata, verbose: bool) -> list[str]:
     lines = []
-    for each in metadata.topics:
+    for each in _plain_topics(metadata):
         lines.append(
             f'Topic: {each.topic.name} | Type: {each.topic.type_name} | '
             f'Count: {each.message_count} | '

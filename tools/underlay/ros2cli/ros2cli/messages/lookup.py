@@ -9,6 +9,7 @@ from typing import Any
 from ros_environment.suggestions import did_you_mean
 
 KINDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
+EVENT = '_Event'
 EXAMPLES = {
     'msg': 'std_msgs/msg/String',
     'srv': 'std_srvs/srv/Trigger',
@@ -31,7 +32,8 @@ def get_message(name: str) -> Any:
     Parameters
     ----------
     name
-        `package/msg/Type` or `package/Type`.
+        `package/msg/Type` or `package/Type`, or `package/srv/Type_Event` for the events of a
+        service.
 
     Returns
     -------
@@ -44,6 +46,8 @@ def get_message(name: str) -> Any:
         There is no such message; WrongKind if the name is that of a service or action.
 
     """
+    if '/srv/' in name and name.endswith(EVENT):
+        return _get_interface(name.removesuffix(EVENT), 'srv').Event
     return _get_interface(name, 'msg')
 
 

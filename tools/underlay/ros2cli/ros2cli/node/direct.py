@@ -38,7 +38,8 @@ class DirectNode:
     Parameters
     ----------
     args : argparse.Namespace | None
-        The options of `add_node_arguments`; None or missing options mean the defaults.
+        The options of `add_node_arguments` and `add_ros_args_argument`; None or missing options
+        mean the defaults.
     node_name
         The name of the node; by default a hidden one with the process ID.
     survives_interrupt
@@ -61,6 +62,8 @@ class DirectNode:
         self._spin_time_s: float = getattr(args, 'spin_time', DEFAULT_SPIN_TIME_S)
         self._watch: GraphWatch | None = None
         self._use_sim_time: bool = getattr(args, 'use_sim_time', False)
+        ros_args: list[str] = getattr(args, 'ros_args', [])
+        self._words = ['--ros-args', *ros_args] if ros_args else []
         self._node_name = node_name or f'{NODE_NAME_PREFIX}_{os.getpid()}'
         self._signals = (
             SignalHandlerOptions.SIGTERM if survives_interrupt else SignalHandlerOptions.ALL
@@ -68,7 +71,7 @@ class DirectNode:
 
     def __enter__(self) -> DirectNode:
         """Initialize rclpy and create the node; discovery is not waited for."""
-        rclpy.init(args=[], signal_handler_options=self._signals)
+        rclpy.init(args=self._words, signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
             start_parameter_services=False,

@@ -28,12 +28,32 @@ class ControlCommand(VerbCommand):
             'ros2controlcli.verb.list_hardware_interfaces:ListHardwareInterfacesVerb',
             'List command and state interfaces',
         ),
+        'load_controller': Entry(
+            'ros2controlcli.verb.load_controller:LoadControllerVerb',
+            'Load a controller in a controller manager',
+        ),
+        'reload_controller_libraries': Entry(
+            'ros2controlcli.verb.reload_controller_libraries:ReloadControllerLibrariesVerb',
+            'Reload controller libraries',
+        ),
         'set_controller_state': Entry(
             'ros2controlcli.verb.set_controller_state:SetControllerStateVerb',
             'Adjust the state of a controller',
         ),
+        'set_hardware_component_state': Entry(
+            'ros2controlcli.verb.set_hardware_component_state:SetHardwareComponentStateVerb',
+            'Adjust the state of a hardware component',
+        ),
         'switch_controllers': Entry(
             'ros2controlcli.verb.switch_controllers:SwitchControllersVerb',
             'Switch controllers in a controller manager',
+        ),
+        'unload_controller': Entry(
+            'ros2controlcli.verb.unload_controller:UnloadControllerVerb',
+            'Unload a controller in a controller manager',
+        ),
+        'view_controller_chains': Entry(
+            'ros2controlcli.verb.view_controller_chains:ViewControllerChainsVerb',
+            'Generate a diagram of the loaded chained controllers',
         ),
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2controlcli.manager import add_manager_arguments, ask
+from ros2controlcli.manager import add_manager_arguments, connected
 from ros2controlcli.verb import VerbExtension
 
 
@@ -36,7 +36,8 @@ class ListControllerTypesVerb(VerbExtension):
             The parsed command line.
 
         """
-        answer = ask(args, 'list_controller_types', 'ListControllerTypes')
+        with connected(args) as manager:
+            answer = manager.ask('list_controller_types')
         width = max(map(len, answer.types), default=0)
         for kind, base_class in zip(answer.types, answer.base_classes):
             print(f'{kind:<{width}} {base_class}')

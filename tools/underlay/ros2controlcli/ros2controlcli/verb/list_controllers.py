@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from ros2controlcli.manager import add_manager_arguments, ask, print_lines
+from ros2controlcli.manager import add_manager_arguments, connected, print_lines
 from ros2controlcli.verb import VerbExtension
 
 PARTS = {
@@ -51,7 +51,8 @@ class ListControllersVerb(VerbExtension):
             The parsed command line.
 
         """
-        controllers = ask(args, 'list_controllers', 'ListControllers').controller
+        with connected(args) as manager:
+            controllers = manager.ask('list_controllers').controller
         if not controllers:
             print('No controllers are currently loaded!')
         name_width = max((len(each.name) for each in controllers), default=0)

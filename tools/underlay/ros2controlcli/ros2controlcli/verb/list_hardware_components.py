@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2controlcli.manager import add_manager_arguments, ask, command_line, print_lines
+from ros2controlcli.manager import add_manager_arguments, command_line, connected, print_lines
 from ros2controlcli.verb import VerbExtension
 
 
@@ -39,7 +39,8 @@ class ListHardwareComponentsVerb(VerbExtension):
             The parsed command line.
 
         """
-        components = ask(args, 'list_hardware_components', 'ListHardwareComponents').component
+        with connected(args) as manager:
+            components = manager.ask('list_hardware_components').component
         for number, each in enumerate(components, start=1):
             print(f'Hardware Component {number}')
             print(f'\tname: {each.name}')

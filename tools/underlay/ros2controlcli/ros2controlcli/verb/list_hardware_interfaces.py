@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import argparse
 
-from ros2controlcli.manager import add_manager_arguments, ask, command_line, print_lines
+from ros2controlcli.manager import add_manager_arguments, command_line, connected, print_lines
 from ros2controlcli.verb import VerbExtension
 
 
@@ -36,7 +36,8 @@ class ListHardwareInterfacesVerb(VerbExtension):
             The parsed command line.
 
         """
-        answer = ask(args, 'list_hardware_interfaces', 'ListHardwareInterfaces')
+        with connected(args) as manager:
+            answer = manager.ask('list_hardware_interfaces')
         print_lines('command interfaces', sorted(map(command_line, answer.command_interfaces)))
         print_lines('state interfaces', sorted(each.name for each in answer.state_interfaces))
         return None

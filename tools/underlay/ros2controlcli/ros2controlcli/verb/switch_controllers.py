@@ -6,10 +6,9 @@ from __future__ import annotations
 import argparse
 
 from ros2cli.arguments import positive_number
-from ros2controlcli.manager import add_manager_arguments, ask
+from ros2controlcli.manager import add_manager_arguments, connected
+from ros2controlcli.states import see_log
 from ros2controlcli.verb import VerbExtension
-
-BEST_EFFORT, STRICT = 1, 2
 
 
 class SwitchControllersVerb(VerbExtension):
@@ -67,21 +66,18 @@ class SwitchControllersVerb(VerbExtension):
         """
         if not args.activate and not args.deactivate:
             return 'Choose controllers: --activate NAME, --deactivate NAME, or both'
-        from builtin_interfaces.msg import Duration
-
-        seconds = int(args.switch_timeout)
-        answer = ask(
-            args,
-            'switch_controller',
-            'SwitchController',
-            activate_controllers=args.activate,
-            deactivate_controllers=args.deactivate,
-            strictness=STRICT if args.strict else BEST_EFFORT,
-            activate_asap=args.activate_asap,
-            timeout=Duration(sec=seconds, nanosec=int((args.switch_timeout - seconds) * 1e9)),
-        )
+        with connected(args) as manager:
+            answer = manager.ask(
+                'switch_controllers',
+                args.deactivate,
+                args.activate,
+                args.strict,
+                args.activate_asap,
+                args.switch_timeout,
+            )
+            reason = answer.message or see_log(manager)
         if not answer.ok:
-            return f'Error switching controllers. {answer.message}'.rstrip()
+            return f'Error switching controllers. {reason}'
         print('Successfully switched controllers')
         if answer.message:
             print(answer.message)
