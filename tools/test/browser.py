@@ -29,7 +29,7 @@ RARE_FRAMES = """
     window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 190);
     window.cancelAnimationFrame = clearTimeout;
 """
-"""Lets a page draw five frames a second: without a graphics card, drawing keeps processors busy."""
+"""Lets a page draw five frames a second: without a graphics card, drawing needs processors."""
 SIZE = {'width': 900, 'height': 620}
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'

@@ -61,8 +61,8 @@ def in_python(fields: str, package: str) -> dict[str, str]:
 def test_every_interface_package_has_a_table() -> None:
     """The packages that ROS 2 Jazzy has and PyPI lacks, whole."""
     assert [table.stem for table in TABLES] == (
-        'action_tutorials_interfaces audio_common_msgs control_msgs controller_manager_msgs '
-        'example_interfaces geographic_msgs map_msgs nav2_msgs '
+        'ackermann_msgs action_tutorials_interfaces audio_common_msgs control_msgs '
+        'controller_manager_msgs example_interfaces geographic_msgs map_msgs nav2_msgs '
         'rosbag2_interfaces simulation_interfaces turtlesim vision_msgs'.split()
     )
 

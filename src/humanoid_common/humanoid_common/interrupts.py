@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Signals that end a process: SIGINT and SIGTERM as a request to stop, and the end of its parent."""
+"""Signals that end a process: SIGINT and SIGTERM, which ask it to stop, and its parent's end."""
 
 from __future__ import annotations
 

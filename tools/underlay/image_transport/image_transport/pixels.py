@@ -7,18 +7,16 @@ from array import array
 import io
 from typing import Any, NamedTuple
 
+from image_transport.encodings import parse_encoding, Pixels, view_pixels
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image as Pillow
 from PIL import UnidentifiedImageError
 from sensor_msgs.msg import Image
 
-__all__ = ['ENCODINGS', 'Encoding', 'bytes_of', 'image_of', 'packed', 'pixels_of', 'unpacked']
-
-Pixels = NDArray[Any]
+__all__ = ['ENCODINGS', 'Layout', 'bytes_of', 'image_of', 'packed', 'pixels_of', 'unpacked']
 
 
-class Encoding(NamedTuple):
+class Layout(NamedTuple):
     """The layout of a pixel: its channels, their type, and red, green and blue among them."""
 
     channels: int
@@ -27,17 +25,12 @@ class Encoding(NamedTuple):
 
 
 _RGB, _BGR = (0, 1, 2), (2, 1, 0)
+_ORDERS = {'rgb8': _RGB, 'bgr8': _BGR, 'rgba8': _RGB, 'bgra8': _BGR, '8UC3': _BGR}
+_GREYS = ('mono8', '8UC1', 'mono16', '16UC1', '32FC1')
 ENCODINGS = {
-    'rgb8': Encoding(3, 'u1', _RGB),
-    'bgr8': Encoding(3, 'u1', _BGR),
-    'rgba8': Encoding(4, 'u1', _RGB),
-    'bgra8': Encoding(4, 'u1', _BGR),
-    '8UC3': Encoding(3, 'u1', _BGR),
-    'mono8': Encoding(1, 'u1'),
-    '8UC1': Encoding(1, 'u1'),
-    'mono16': Encoding(1, 'u2'),
-    '16UC1': Encoding(1, 'u2'),
-    '32FC1': Encoding(1, 'f4'),
+    name: Layout(encoding.channels, encoding.kind, _ORDERS.get(name, ()))
+    for name in (*_ORDERS, *_GREYS)
+    for encoding in (parse_encoding(name),)
 }
 """The encodings that transports understand; as in OpenCV, `8UC3` is blue, green and red."""
 
@@ -62,20 +55,7 @@ def pixels_of(image: Image) -> Pixels:
         The image is empty, or has fewer data than its size needs.
 
     """
-    encoding = ENCODINGS[image.encoding]
-    kind = np.dtype(f'{">" if image.is_bigendian else "<"}{encoding.kind}')
-    width, height, step = image.width, image.height, image.step
-    row = width * encoding.channels * kind.itemsize
-    data = np.frombuffer(image.data, np.uint8)
-    if not width or not height or step < row or len(data) < step * (height - 1) + row:
-        raise ValueError(
-            f'An image of {width} x {height} pixels ({image.encoding}) with rows of {step} bytes '
-            f'has {len(data)} bytes of data: its size and its data do not match.'
-        )
-    channels = () if encoding.channels == 1 else (encoding.channels,)
-    strides = (step, encoding.channels * kind.itemsize, kind.itemsize)[: 2 + len(channels)]
-    pixels: Pixels = np.ndarray((height, width, *channels), kind, data, strides=strides)
-    return pixels
+    return view_pixels(image, parse_encoding(image.encoding))
 
 
 def image_of(pixels: Pixels, encoding: str, header: Any) -> Image:

@@ -14,11 +14,13 @@ if TYPE_CHECKING:
     from launch_testing.markers import parametrize, post_shutdown_test
     from launch_testing.proc_info_handler import ActiveProcInfoHandler, ProcInfoHandler
     from launch_testing.test_result import TestResult
+    from launch_testing.test_runner import LaunchTestRunner
 
 __all__ = [
     'ActiveIoHandler',
     'ActiveProcInfoHandler',
     'IoHandler',
+    'LaunchTestRunner',
     'LaunchTestService',
     'ProcInfoHandler',
     'TestResult',
@@ -36,6 +38,7 @@ __all__ = [
 _ELSEWHERE = {
     'ActiveIoHandler': 'io_handler',
     'ActiveProcInfoHandler': 'proc_info_handler',
+    'LaunchTestRunner': 'test_runner',
     'actions': '',
     'asserts': '',
     'event_handlers': '',

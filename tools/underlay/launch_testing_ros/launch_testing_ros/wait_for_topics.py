@@ -35,6 +35,8 @@ class WaitForTopics:
         Called with the node and the trigger arguments before each wait.
     node_namespace
         The namespace of the node.
+    qos_profile
+        The QoS profile, or the depth, of the subscriptions to topics without one of their own.
     callback
         Called with the topic name and each message, from the thread that spins the node.
     **trigger_arguments
@@ -49,6 +51,7 @@ class WaitForTopics:
         messages_received_buffer_length: int = 10,
         trigger: Optional[Callable[..., Any]] = None,
         node_namespace: Optional[str] = None,
+        qos_profile: Any = None,
         callback: Optional[OnMessage] = None,
         **trigger_arguments: Any,
     ) -> None:
@@ -60,9 +63,15 @@ class WaitForTopics:
         self._messages: dict[str, deque[Any]] = {
             name: deque(maxlen=messages_received_buffer_length) for name, *_ in topics
         }
-        self._start(topics, node_namespace, messages_received_buffer_length)
+        self._start(topics, node_namespace, messages_received_buffer_length, qos_profile)
 
-    def _start(self, topics: list[tuple[Any, ...]], namespace: Optional[str], depth: int) -> None:
+    def _start(
+        self,
+        topics: list[tuple[Any, ...]],
+        namespace: Optional[str],
+        depth: int,
+        qos_profile: Any,
+    ) -> None:
         """Start a node with its own ROS context."""
         import rclpy
         from rclpy.context import Context
@@ -79,12 +88,13 @@ class WaitForTopics:
             enable_rosout=False,
         )
         any_publisher = QoSProfile(depth=depth, reliability=ReliabilityPolicy.BEST_EFFORT)
+        usual = any_publisher if qos_profile is None else qos_profile
         for name, message_type, *qos in topics:
             self._node.create_subscription(
                 message_type,
                 name,
                 partial(self._on_message, name),
-                qos[0] if qos else any_publisher,
+                qos[0] if qos else usual,
             )
         self._pump: Optional[MessagePump] = MessagePump(self._node)
         self._pump.start()

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from launch_testing_ros import MessagePump, WaitForTopics
+from launch_testing_ros import DataRepublisher, MessagePump, WaitForTopics
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -77,3 +77,29 @@ def test_trigger() -> None:
         [('answer', String)], timeout=TIMEOUT_S, trigger=begin, node_namespace='robot', text='yes'
     ) as topics:
         assert topics.received_messages('answer')[0].data == 'yes'
+
+
+def test_one_qos_profile_for_all_topics(node: Node) -> None:
+    """A message that was published before arrives if the profile asks for it."""
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    with WaitForTopics([('number', Int32)], timeout=TIMEOUT_S, qos_profile=latched) as topics:
+        assert topics.received_messages('number') == [Int32(data=5)]
+
+
+def test_messages_are_republished(node: Node) -> None:
+    """Messages come out as the function changed them, and those that it drops do not."""
+    count = iter(range(1_000_000))
+
+    def every_other(message: String) -> String | None:
+        return String(data=f'{message.data} again') if next(count) % 2 else None
+
+    other = Node('changer', context=node.context)
+    changer = DataRepublisher(other, 'words', 'changed_words', String, every_other)
+    with MessagePump(other):
+        with WaitForTopics([('changed_words', String)], timeout=TIMEOUT_S) as topics:
+            assert topics.received_messages('changed_words')[0].data == 'hello again'
+    assert changer.get_num_received() > changer.get_num_republished() > 0
+    assert changer.get_republished()[0] == String(data='hello again')
+    changer.shutdown()
+    other.destroy_node()
+    assert node.count_publishers('changed_words') == 0

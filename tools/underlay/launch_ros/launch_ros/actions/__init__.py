@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from launch_ros.actions.lifecycle_node import LifecycleNode
     from launch_ros.actions.lifecycle_transition import LifecycleTransition
     from launch_ros.actions.node import Node
-    from launch_ros.actions.ros_time import ROSTimer, SetUseSimTime
+    from launch_ros.actions.ros_time import ROSTimer, RosTimer, SetUseSimTime
     from launch_ros.actions.set_ros_log_dir import SetROSLogDir
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     'PushROSNamespace',
     'PushRosNamespace',
     'ROSTimer',
+    'RosTimer',
     'SetParameter',
     'SetParametersFromFile',
     'SetROSLogDir',
@@ -57,6 +58,7 @@ _ELSEWHERE = {
     'PushROSNamespace': 'following_nodes',
     'PushRosNamespace': 'following_nodes',
     'ROSTimer': 'ros_time',
+    'RosTimer': 'ros_time',
     'SetParameter': 'following_nodes',
     'SetParametersFromFile': 'following_nodes',
     'SetRemap': 'following_nodes',

@@ -64,6 +64,9 @@ class ROSTimer(TimerAction):
         return Alarm(get_ros_node(context), period_s, run_out)
 
 
+RosTimer = ROSTimer
+
+
 class Alarm:
     """
     One-shot timer of a node, which starts immediately.

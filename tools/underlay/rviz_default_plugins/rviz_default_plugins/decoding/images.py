@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections import deque
 import io
 import math
-import re
 from statistics import median
 from typing import Any, NamedTuple
 
+from image_transport.encodings import parse_encoding
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,14 +23,7 @@ MOST_PIXELS = 1_300_000
 MOST_COMPRESSED = 100_000_000
 """The maximum number of pixels; larger images may be decompression bombs."""
 
-_COLORS = {'rgb': 3, 'bgr': 3, 'rgba': 4, 'bgra': 4, 'mono': 1}
-_KINDS = {'U': 'u', 'S': 'i', 'F': 'f'}
-_YUV = {
-    'yuv422': 'uyvy',
-    'uyvy': 'uyvy',
-    'yuv422_yuy2': 'yuy2',
-    'yuyv': 'yuy2',
-}
+_ORDERS = {1: 'mono', 3: 'bgr', 4: 'bgra'}  # of numbers without a meaning, as in OpenCV
 
 
 class Picture(NamedTuple):
@@ -210,21 +203,13 @@ def _layout_of(encoding: str, is_bigendian: bool = False) -> _Layout:
         The encoding is unknown.
 
     """
-    end = '>' if is_bigendian else '<'
-    if found := re.fullmatch(r'(rgb|bgr|rgba|bgra|mono)(8|16)', encoding):
-        kind = np.dtype(f'{end}u{int(found[2]) // 8}')
-        return _Layout(found[1], _COLORS[found[1]], kind)
-    if found := re.fullmatch(r'(8|16|32|64)([USF])C([134])?', encoding):
-        size, channels = int(found[1]) // 8, int(found[3] or 1)
-        if found[2] == 'F' and size < 4:
-            raise _unknown(encoding)
-        kind = np.dtype(f'{end}{_KINDS[found[2]]}{size}')
-        return _Layout({1: 'mono', 3: 'bgr', 4: 'bgra'}[channels], channels, kind)
-    if found := re.fullmatch(r'bayer_(rggb|bggr|gbrg|grbg)(8|16)', encoding):
-        return _Layout(found[1], 1, np.dtype(f'{end}u{int(found[2]) // 8}'))
-    if encoding in _YUV:
-        return _Layout(_YUV[encoding], 2, np.dtype('u1'))
-    raise _unknown(encoding)
+    try:
+        found = parse_encoding(encoding)
+        order = found.colours or _ORDERS[found.channels]
+    except (ValueError, KeyError):
+        raise _unknown(encoding) from None
+    kind = np.dtype(f'{">" if is_bigendian else "<"}{found.kind}')
+    return _Layout(order, found.channels, kind)
 
 
 def _raw_pixels(message: Any, layout: _Layout) -> NDArray[Any]:
