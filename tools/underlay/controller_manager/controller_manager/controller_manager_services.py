@@ -161,10 +161,12 @@ def _answers(node: Node, future: Any, timeout_s: float) -> bool:
 
 def _spin_once(node: Node) -> None:
     """Spin a node once, with the executor that it is in, if any."""
-    if node.executor is None:
-        rclpy.spin_once(node, timeout_sec=_LOOK_S)
+    executor = node.executor
+    # A node keeps its last executor when it is taken out of it.
+    if executor is not None and node in executor.get_nodes():
+        executor.spin_once(timeout_sec=_LOOK_S)
     else:
-        node.executor.spin_once(timeout_sec=_LOOK_S)
+        rclpy.spin_once(node, timeout_sec=_LOOK_S)
 
 
 def _call(

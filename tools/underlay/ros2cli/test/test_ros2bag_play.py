@@ -61,6 +61,8 @@ class Ear:
         """Call a service of the player, and return its response."""
         client = self._node.create_client(kind, f'/rosbag2_player/{name}')
         self.spin_until(client.service_is_ready)
+        settled = time.monotonic() + 0.3
+        self.spin_until(lambda: time.monotonic() > settled)
         future = client.call_async(kind.Request(**fields))
         end = time.monotonic() + 5.0
         while not future.done():
@@ -216,7 +218,9 @@ def test_services_control_the_player(ear: Ear, start_ros2: Start, tmp_path: Path
     assert ear.call('seek', Seek, time=_stamp(980 * MS)).success
     assert ear.call('burst', Burst).actually_burst == 2
     assert ear.call('seek', Seek, time=_stamp(0)).success
-    ear.call('stop', Stop)
+    client = ear._node.create_client(Stop, '/rosbag2_player/stop')
+    ear.spin_until(client.service_is_ready)
+    client.call_async(Stop.Request())
     errors = ear.spin_with(process)
     assert ear.texts('/ticks') == ['0', '1', '2', '3', '50', '98', '99']
     assert 'Played 7 messages.' in errors
@@ -271,7 +275,7 @@ def test_clock_before_messages(
     ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), *words))
     stamps = [m.clock.sec * 10**9 + m.clock.nanosec - START_NS for _, m, _ in ear.heard]
     step = 20 if len(words) == 2 else 10
-    assert stamps == [time_ms * MS for time_ms in range(0, 100 - 20 + step, step)]
+    assert stamps == [time_ms * MS for time_ms in range(0, 100, step)]
 
 
 def test_unknown_type_is_left_out(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:

@@ -85,10 +85,12 @@ def _arrows(controllers: Sequence[Any], components: Sequence[Any]) -> Iterator[A
     for each in controllers:
         taken |= dict.fromkeys(_full(each.name, each.reference_interfaces), each.name)
         given |= dict.fromkeys(_full(each.name, each.exported_state_interfaces), each.name)
+    loaded = {each.name for each in controllers}
     for each in controllers:
         chained = [
             name
             for chain in each.chain_connections
+            if chain.name in loaded
             for name in _full(chain.name, chain.reference_interfaces)
         ]
         commanded = dict.fromkeys([*each.required_command_interfaces, *chained])

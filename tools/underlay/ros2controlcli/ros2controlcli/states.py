@@ -30,7 +30,8 @@ def bring(manager: Manager, name: str, wanted: str) -> str:
     """
     states = manager.states()
     if name not in states:
-        return f'{unknown("controller", name, states)}. To load one: ros2 control load_controller'
+        load = f'ros2 control load_controller {name}'
+        return f'{unknown("controller", name, states)}\nTo load one: {load}'
     state = states[name]
     if state == UNCONFIGURED:
         if not manager.ask('configure_controller', name).ok:

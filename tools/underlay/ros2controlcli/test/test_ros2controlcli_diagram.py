@@ -71,7 +71,7 @@ def test_dot() -> None:
 def test_svg() -> None:
     """Those who command are at the left, and a loop is drawn as well."""
     root = ElementTree.fromstring(as_svg(_diagram()))
-    texts = [(each.text, float(each.attrib['x'])) for each in root.iter() if each.text]
+    texts = [(each.text, float(each.attrib['x'])) for each in root.iter() if 'x' in each.attrib]
     xs = {text: x for text, x in texts if text in ('drive', 'pid', 'wheels')}
     assert xs['drive'] < xs['pid'] < xs['wheels']
     loop = Diagram(_diagram().boxes, (Arrow('pid', 'drive', ('a',), True, True),) * 2)

@@ -177,8 +177,8 @@ def test_set_the_state_of_what_is_not_there(control: Ros2) -> None:
     """A controller that does not exist is an error with a similar name; others are refused."""
     done = control('set_controller_state', 'arm_controler', 'active')
     assert done.stderr == (
-        "There is no controller 'arm_controler'\nDid you mean 'arm_controller'? "
-        'To load one: ros2 control load_controller\n'
+        "There is no controller 'arm_controler'\nDid you mean 'arm_controller'?\n"
+        'To load one: ros2 control load_controller arm_controler\n'
     )
     done = control('set_controller_state', 'walk', 'inactive')
     assert (done.returncode, done.stdout) == (1, '')

@@ -7,19 +7,19 @@ A service whose introspection is on publishes its requests and responses on a hi
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable
 import re
-import struct
 from typing import NamedTuple
 
 __all__ = ['EVENT_SUFFIX', 'CallCounts', 'Service', 'count_calls', 'event_topic', 'service_of']
 
 EVENT_SUFFIX = '/_service_event'
 _TYPE = re.compile(r'(?P<service>[^/]+/srv/[^/]+)_Event')
-# Of service_msgs/msg/ServiceEventInfo, behind the 4 bytes that begin a serialized message: the
-# kind of the event, its time, the ID of the client and the number of the call.
-_INFO = struct.Struct('<4xB3x8x16s4xq')
-_REQUESTS = (0, 1)  # REQUEST_SENT, REQUEST_RECEIVED
+# The first field of service_msgs/msg/ServiceEventInfo, behind the 4 bytes that begin a message.
+_KIND = 4
+# In the order of the kinds: a request sent and received, a response sent and received.
+_KINDS = range(4)
 
 
 class Service(NamedTuple):
@@ -69,7 +69,7 @@ def event_topic(service: str) -> str:
 
 def count_calls(events: Iterable[bytes]) -> CallCounts:
     """
-    Count requests and responses; one that both client and server tell of counts once.
+    Count requests and responses, as told by clients or by servers, whoever tells of more.
 
     Parameters
     ----------
@@ -77,10 +77,6 @@ def count_calls(events: Iterable[bytes]) -> CallCounts:
         The serialized events of a service.
 
     """
-    requests: set[tuple[bytes, int]] = set()
-    responses: set[tuple[bytes, int]] = set()
-    for event in events:
-        if len(event) >= _INFO.size:
-            kind, client, number = _INFO.unpack_from(event)
-            (requests if kind in _REQUESTS else responses).add((client, number))
-    return CallCounts(len(requests), len(responses))
+    found = Counter(event[_KIND] for event in events if len(event) > _KIND)
+    sent, received, answered, heard = (found[kind] for kind in _KINDS)
+    return CallCounts(max(sent, received), max(answered, heard))

@@ -14,7 +14,13 @@ from robot_console.recordings.child import Lifeline, tell
 from robot_console.recordings.programs.playback import Playback
 from ros2bag.api.control import StopSignals
 from ros2bag.api.outlets import Outlets
-from ros2bag.api.play_arguments import add_bag_argument, add_choice_arguments, filter_of, remaps
+from ros2bag.api.play_arguments import (
+    add_bag_argument,
+    add_choice_arguments,
+    filter_of,
+    remaps,
+    request_source,
+)
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.latched import RecordedMessage
@@ -111,7 +117,7 @@ def _prepare(node: Any, reader: BagReader, args: argparse.Namespace) -> tuple[Pl
     chosen = filter_of(args)
     topics = [each.topic for each in reader.metadata.topics]
     wanted = [topic for topic in topics if chosen.wants(topic.name, topic.type_name)]
-    outlets = Outlets(node, wanted, remaps(args), {})
+    outlets = Outlets(node, wanted, remaps(args), {}, request_source(args))
     if not outlets.topics:
         raise BagError(f"Nothing of '{args.bag_path}' can be played.")
     outlets.wait_for_subscribers()
