@@ -153,4 +153,5 @@ def _in_other_type(pixels: Pixels, kind: np.dtype[Any]) -> Pixels:
     scale = scales.get((pixels.dtype.str[1:], kind.str[1:]), 1.0)
     limits = np.iinfo(kind)
     values = np.nan_to_num(np.rint(pixels * np.float64(scale)))
-    return np.clip(values, limits.min, limits.max).astype(kind)
+    fitting: Pixels = np.clip(values, limits.min, limits.max).astype(kind)
+    return fitting

@@ -153,14 +153,15 @@ class CvBridge:
         cv2 = opencv('decompresses images')
         data = np.frombuffer(cmprs_img_msg.data, np.uint8)
         try:
-            pixels = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if data.size else None
+            read: Any = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if data.size else None
         except cv2.error:
-            pixels = None
-        if pixels is None:
+            read = None
+        if read is None:
             raise CvBridgeError(
                 f"The {data.size} bytes of data with the format '{cmprs_img_msg.format}' are no "
                 f'file that OpenCV can read.{_advice(cmprs_img_msg.format)}'
             )
+        pixels: Pixels = read
         if desired_encoding == 'passthrough':
             return pixels
         found = (pixels.dtype.str[1:], 1 if pixels.ndim == 2 else pixels.shape[2])

@@ -256,5 +256,5 @@ def _seconds(stamp: Any) -> float:
     if hasattr(stamp, 'nanoseconds'):
         return float(stamp.nanoseconds) * 1e-9
     if hasattr(stamp, 'nanosec'):
-        return float(stamp.sec) + stamp.nanosec * 1e-9
+        return float(stamp.sec) + float(stamp.nanosec) * 1e-9
     return float(stamp)

@@ -65,7 +65,7 @@ class PinholeCameraModel:
 
     def _as_sent(self, full: Matrix) -> Matrix:
         """Adapt a matrix for all pixels of the sensor to binning and the region of interest."""
-        matrix = full.copy()
+        matrix: Matrix = full.copy()
         matrix[0, 2] -= self.raw_roi.x_offset
         matrix[1, 2] -= self.raw_roi.y_offset
         matrix[0] /= self.binning_x
@@ -129,8 +129,8 @@ class PinholeCameraModel:
         points = np.array([[[uv_raw[0], uv_raw[1]]]], np.float64)
         found: NDArray[np.float64] = lens.undistortPoints(
             points, self.K, self._coefficients(), R=self.R, P=self.P[:, :3]
-        )
-        return found[0, 0]
+        ).reshape(2)
+        return found
 
     def _is_fisheye(self) -> bool:
         return self.distortion_model in ('equidistant', 'fisheye')

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from image_transport.encodings import Pixels
 from image_transport.pixels import (
     bytes_of,
     ENCODINGS,
     image_of,
     packed,
-    Pixels,
     pixels_of,
     unpacked,
 )

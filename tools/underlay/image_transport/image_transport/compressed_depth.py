@@ -13,7 +13,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 import struct
 
-from image_transport.pixels import bytes_of, image_of, packed, Pixels, pixels_of, unpacked
+from image_transport.encodings import Pixels
+from image_transport.pixels import bytes_of, image_of, packed, pixels_of, unpacked
 import numpy as np
 from sensor_msgs.msg import CompressedImage, Image
 

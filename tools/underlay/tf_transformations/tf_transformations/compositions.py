@@ -56,7 +56,8 @@ def compose_matrix(
         projection = np.eye(4)
         projection[3] = np.asarray(perspective, float)
         matrix = projection @ matrix
-    return matrix / matrix[3, 3]
+    composed: Array = matrix / matrix[3, 3]
+    return composed
 
 
 def decompose_matrix(matrix: ArrayLike) -> tuple[Array, Array, tuple[float, ...], Array, Array]:

@@ -279,7 +279,8 @@ def quaternion_inverse(quaternion: ArrayLike) -> Array:
 
     """
     numbers = np.asarray(quaternion, float)
-    return quaternion_conjugate(numbers) / (numbers @ numbers)
+    inverse: Array = quaternion_conjugate(numbers) / (numbers @ numbers)
+    return inverse
 
 
 def quaternion_slerp(

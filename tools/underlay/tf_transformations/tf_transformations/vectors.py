@@ -53,7 +53,8 @@ def unit_vector(data: ArrayLike, axis: int | None = None) -> Array:
     """
     vectors: Array = np.array(data, float)
     lengths = vector_norm(vectors, axis)
-    return vectors / (lengths if axis is None else np.expand_dims(lengths, axis))
+    vectors /= lengths if axis is None else np.expand_dims(lengths, axis)
+    return vectors
 
 
 def random_vector(size: int) -> Array:

@@ -375,7 +375,8 @@ class Robot:
         element = add(None, 'robot', name=self.name)
         if self.version != '1.0':
             element.set('version', self.version)
-        for each in (*self.materials, *self.links, *self.joints):
+        parts: list[Material | Link | Joint] = [*self.materials, *self.links, *self.joints]
+        for each in parts:
             each.to_xml(element)
         element.extend(self._others)
         return element
