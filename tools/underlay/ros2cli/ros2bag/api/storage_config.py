@@ -77,7 +77,9 @@ def _mapping(path: str) -> dict[str, Any]:
     except (OSError, ValueError, yaml.YAMLError) as error:
         raise BagError(f"The storage configuration '{path}' cannot be read: {error}") from error
     if not isinstance(content or {}, dict):
-        raise BagError(f"'{path}' is not a storage configuration: it has no 'setting: value' lines")
+        raise BagError(
+            f"'{path}' is not a storage configuration: it has no 'setting: value' lines"
+        )
     return content or {}
 
 
