@@ -153,7 +153,7 @@ class Numbered(SimpleFilter):
         super().__init__()
         self._number = number
 
-    def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
+    def connectInput(self, f: SimpleFilter) -> None:
         """Take the texts of a filter."""
         f.registerCallback(self.add)
 

@@ -279,9 +279,10 @@ def test_view_controller_chains(
     done = control('view_controller_chains')
     target = tmp_path / f'd.gv.{"pdf" if has_graphviz else "svg"}'
     assert done.returncode == 0 and done.stdout.startswith(f'Drawn: {target}')
-    assert '"arm_controller" -> "robot" [label="elbow/position" style=solid' in (
-        tmp_path / 'd.gv'
-    ).read_text()
+    assert (
+        '"arm_controller" -> "robot" [label="elbow/position" style=solid'
+        in (tmp_path / 'd.gv').read_text()
+    )
     assert 'arm_controller' in target.read_text()
 
 

@@ -73,13 +73,18 @@ def test_graphviz_fails(tmp_path: Path, dot: None) -> None:
     """What graphviz says is handed on."""
     path = str(tmp_path / 'frames')
     write_graph(path, 'nothing')
-    assert draw(f'{path}.gv', f'{path}.pdf', never) == f'dot could not draw {path}.gv: no graph in {path}.gv'
+    assert (
+        draw(f'{path}.gv', f'{path}.pdf', never)
+        == f'dot could not draw {path}.gv: no graph in {path}.gv'
+    )
 
 
 def test_graphviz_cannot_start(tmp_path: Path, dot: None) -> None:
     """A program that is none is a sentence."""
     (tmp_path / 'bin' / 'dot').write_text('#!/no/such/shell\n')
-    assert draw(str(tmp_path / 'f.gv'), str(tmp_path / 'f.pdf'), never).startswith('dot cannot be started: No such file')
+    assert draw(str(tmp_path / 'f.gv'), str(tmp_path / 'f.pdf'), never).startswith(
+        'dot cannot be started: No such file'
+    )
 
 
 def test_interrupt_of_graphviz(tmp_path: Path, dot: None, environment: dict[str, str]) -> None:

@@ -52,9 +52,7 @@ def _add_choice(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         'topics_positional', nargs='*', metavar='topic', help='a topic to record, as with --topics'
     )
-    group.add_argument(
-        '-a', '--all', action='store_true', help='record all topics and services'
-    )
+    group.add_argument('-a', '--all', action='store_true', help='record all topics and services')
     group.add_argument('--all-topics', action='store_true', help='record all topics')
     group.add_argument(
         '--all-services',
@@ -234,7 +232,8 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '--snapshot-mode',
         action='store_true',
-        help='record nothing until the service ~/snapshot is called, which writes the last messages',
+        help='record nothing until the service ~/snapshot is called, which writes the last '
+        'messages',
     )
     add_log_level_argument(group)
     group.add_argument('-q', '--quiet', action='store_true', help='print warnings only')

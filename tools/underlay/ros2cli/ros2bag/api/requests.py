@@ -50,9 +50,7 @@ class ServiceOutlet:
             raise RuntimeError(f"'{name}' is not the name of the events of a service")
         self._node, self._kind, self._name = node, SOURCES[source], service.name
         self._event_type = get_message(topic.type_name)
-        self._client = node.create_client(
-            get_passed_type(service.type_name, 'srv'), service.name
-        )
+        self._client = node.create_client(get_passed_type(service.type_name, 'srv'), service.name)
         self._pending: list[Any] = []
         self._is_warned: set[str] = set()
 

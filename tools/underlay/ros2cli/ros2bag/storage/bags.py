@@ -43,9 +43,7 @@ class Bags:
         self.path = ', '.join(paths)
         parts = [reader.metadata for reader in self._readers]
         self.metadata: BagMetadata = (
-            parts[0]
-            if len(parts) == 1
-            else replace(merged(parts), custom_data=_joined(parts))
+            parts[0] if len(parts) == 1 else replace(merged(parts), custom_data=_joined(parts))
         )
 
     def check(self) -> None:

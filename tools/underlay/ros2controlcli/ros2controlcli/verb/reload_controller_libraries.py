@@ -54,7 +54,9 @@ class ReloadControllerLibrariesVerb(VerbExtension):
                     else ''
                 )
                 return '. '.join(
-                    filter(None, ('Error reloading controller libraries', see_log(manager), advice))
+                    filter(
+                        None, ('Error reloading controller libraries', see_log(manager), advice)
+                    )
                 )
         print('Successfully reloaded controller libraries')
         return None

@@ -59,7 +59,7 @@ class SetHardwareComponentStateVerb(VerbExtension):
             if not answer.ok or answer.state.label != wanted:
                 return (
                     f"Error setting hardware component '{name}' to {wanted}: it is "
-                    f"{answer.state.label or 'in an unknown state'}. {see_log(manager)}"
+                    f'{answer.state.label or "in an unknown state"}. {see_log(manager)}'
                 )
         print(f'Successfully set {name} to {answer.state.label}')
         return None

@@ -60,6 +60,8 @@ class ViewControllerChainsVerb(VerbExtension):
             return f'{error.filename} cannot be written: {error.strerror}. Remove it, if it is old'
         if target.suffix == '.pdf' and (problem := draw(str(SOURCE), str(target), bool)):
             return problem
-        hint = '' if target.suffix == '.pdf' else ' (an SVG: Graphviz, for a PDF, is not installed)'
+        hint = (
+            '' if target.suffix == '.pdf' else ' (an SVG: Graphviz, for a PDF, is not installed)'
+        )
         print(f'Drawn: {target}{hint}')
         return None
