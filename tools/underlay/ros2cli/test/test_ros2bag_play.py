@@ -45,6 +45,7 @@ class Ear:
     def __init__(self, node: Any, executor: Any) -> None:
         self._node = node
         self._executor = executor
+        self._clients: dict[str, Any] = {}
         self.heard: list[tuple[str, Any, float]] = []
 
     def listen(self, name: str, message_type: Any = String, *, latched: bool = False) -> None:
@@ -57,19 +58,19 @@ class Ear:
             QoSProfile(depth=1000, durability=durability),
         )
 
+    def client(self, name: str, kind: Any) -> Any:
+        """Return the client of a service of the player, which has had time to know it."""
+        if name not in self._clients:
+            self._clients[name] = self._node.create_client(kind, f'/rosbag2_player/{name}')
+            self.spin_until(self._clients[name].service_is_ready)
+            settled = time.monotonic() + 0.5  # until then a server may drop its response
+            self.spin_until(lambda: time.monotonic() > settled)
+        return self._clients[name]
+
     def call(self, name: str, kind: Any, **fields: Any) -> Any:
         """Call a service of the player, and return its response."""
-        client = self._node.create_client(kind, f'/rosbag2_player/{name}')
-        self.spin_until(client.service_is_ready)
-        settled = time.monotonic() + 0.3
-        self.spin_until(lambda: time.monotonic() > settled)
-        future = client.call_async(kind.Request(**fields))
-        end = time.monotonic() + 5.0
-        while not future.done():
-            self._executor.spin_once(timeout_sec=0.05)
-            if time.monotonic() > end:  # a server drops its response to one not discovered yet
-                raise AssertionError(f'no answer of {name}')
-        self._node.destroy_client(client)
+        future = self.client(name, kind).call_async(kind.Request(**fields))
+        self.spin_until(future.done)
         return future.result()
 
     def texts(self, name: str) -> list[str]:
@@ -218,9 +219,7 @@ def test_services_control_the_player(ear: Ear, start_ros2: Start, tmp_path: Path
     assert ear.call('seek', Seek, time=_stamp(980 * MS)).success
     assert ear.call('burst', Burst).actually_burst == 2
     assert ear.call('seek', Seek, time=_stamp(0)).success
-    client = ear._node.create_client(Stop, '/rosbag2_player/stop')
-    ear.spin_until(client.service_is_ready)
-    client.call_async(Stop.Request())
+    ear.client('stop', Stop).call_async(Stop.Request())
     errors = ear.spin_with(process)
     assert ear.texts('/ticks') == ['0', '1', '2', '3', '50', '98', '99']
     assert 'Played 7 messages.' in errors

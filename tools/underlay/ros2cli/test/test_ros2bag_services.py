@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 import signal
 import subprocess
@@ -12,7 +13,6 @@ import sys
 import time
 from typing import Any
 
-from conftest import helper_process
 from example_interfaces.srv import AddTwoInts
 import pytest
 from ros2bag.storage.bag_reader import BagReader
@@ -31,8 +31,25 @@ TYPE = 'example_interfaces/srv/AddTwoInts'
 @pytest.fixture
 def adder(ros_environment_variables: dict[str, str]) -> Iterator[None]:
     """Run a server with introspection, and a client of it that calls it all the time."""
-    with helper_process('bag_adder.py', ros_environment_variables):
+    with _adder(ros_environment_variables):
         yield
+
+
+@contextmanager
+def _adder(variables: dict[str, str], *words: str) -> Iterator[subprocess.Popen[str]]:
+    """Run a server with a client, or one alone that prints the sums; wait until it is ready."""
+    process = subprocess.Popen(
+        [sys.executable, str(Path(__file__).with_name('bag_adder.py')), *words],
+        env=variables,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stdout is not None and process.stdout.readline() == 'ready\n'
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
 
 
 def _record(start_ros2: Start, folder: Path, *words: str) -> None:
@@ -93,10 +110,10 @@ def test_requests_are_sent_again(
 ) -> None:
     """A server gets the recorded requests, each once, and the events are not published."""
     folder = tmp_path / 'bag'
-    with helper_process('bag_adder.py', ros_environment_variables):
+    with _adder(ros_environment_variables):
         _record(start_ros2, folder, '--services', '/add')
     count = count_calls(message.data for message in BagReader(str(folder)).messages()).requests
-    with _server(ros_environment_variables) as process:
+    with _adder(ros_environment_variables, 'server') as process:
         player = start_ros2(
             'bag', 'play', str(folder), '--publish-service-requests',
             '--service-requests-source', source, '-r', '10',
@@ -108,18 +125,6 @@ def test_requests_are_sent_again(
     received = output.split()
     assert set(received) == {'5'}
     assert abs(len(received) - count) <= 1  # the recording may have begun within a call
-
-
-def _server(variables: dict[str, str]) -> subprocess.Popen[str]:
-    """Start a server without a client, which prints the sums; wait until it is ready."""
-    process = subprocess.Popen(
-        [sys.executable, str(Path(__file__).with_name('bag_adder.py')), 'server'],
-        env=variables,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    assert process.stdout is not None and process.stdout.readline() == 'ready\n'
-    return process
 
 
 def test_requests_without_a_server(adder: None, start_ros2: Start, tmp_path: Path) -> None:

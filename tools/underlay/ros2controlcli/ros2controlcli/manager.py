@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shared by the verbs: the controller manager of a command line, and how interfaces are printed."""
+"""Shared by the verbs: the controller manager of a command line, and printing of interfaces."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ class Manager:
             raise RuntimeError(str(error)) from error
 
     def _find(self, service: str) -> None:
-        """Wait for a service of the manager; after the time for it, list the managers there are."""
+        """Wait for a service of the manager; raise an error with the managers there are."""
         watch = self._node.watch
 
         def names(graph: Any) -> list[str]:

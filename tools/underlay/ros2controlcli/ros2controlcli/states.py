@@ -11,7 +11,7 @@ SWITCH_TIMEOUT_S = 5.0
 
 def bring(manager: Manager, name: str, wanted: str) -> str:
     """
-    Configure, activate or deactivate a controller, whatever its state needs, and print what is done.
+    Configure, activate or deactivate a controller as its state needs, and print what is done.
 
     Parameters
     ----------

@@ -223,7 +223,8 @@ def _check_value(path: str, name: str, value: Any) -> None:
     default = DEFAULTS[name]
     number = isinstance(default, int) and not isinstance(default, bool)
     kinds = (int, float) if number else (type(default),)
-    if value is not None and (not isinstance(value, kinds) or (number and isinstance(value, bool))):
+    fits = isinstance(value, kinds) and not (number and isinstance(value, bool))
+    if value is not None and not fits:
         raise BagError(f"'{path}': {name} cannot be {value!r}")
     choices = CHOICES.get(name)
     if choices and value not in (None, '', *choices):

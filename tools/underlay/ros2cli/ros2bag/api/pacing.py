@@ -178,7 +178,7 @@ class ClockOutlet:
 
     def announce(self, message: RecordedMessage) -> None:
         """
-        Publish the recorded time of a message that is about to be played, if its topic asks for it.
+        Publish the recorded time of a message that is played next, if its topic asks for it.
 
         Parameters
         ----------

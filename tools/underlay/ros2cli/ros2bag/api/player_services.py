@@ -54,8 +54,8 @@ def offer_player_services(node: Any, player: Player, span: MessageSpan) -> None:
             player.seek(time_ns)
         else:
             logger.warning(
-                f'The bag has no time {time_ns / 1e9:.3f}: it lasts from {span.start_ns / 1e9:.3f} '
-                f'to {span.end_ns / 1e9:.3f}.'
+                f'The bag has no time {time_ns / 1e9:.3f}: it lasts from '
+                f'{span.start_ns / 1e9:.3f} to {span.end_ns / 1e9:.3f}.'
             )
 
     def stop(_: Any, response: Any) -> None:

@@ -232,7 +232,8 @@ def _add_behaviour(parser: argparse.ArgumentParser) -> None:
     group.add_argument(
         '--snapshot-mode',
         action='store_true',
-        help='record nothing until the service ~/snapshot is called, which writes the last messages',
+        help='record nothing until the service ~/snapshot is called, which writes the last '
+        'messages',
     )
     add_log_level_argument(group)
     group.add_argument('-q', '--quiet', action='store_true', help='print warnings only')

@@ -22,7 +22,7 @@ FIXED = {
 }
 """Settings that have one possible value here, and why."""
 EITHER = ('noAttachmentCRC', 'enableDataCRC', 'forceCompression')
-"""Settings whose values make no difference: no attachments, always a checksum, always compressed."""
+"""Settings that make no difference: there are no attachments, and always a checksum."""
 KNOWN = (*FIXED, *EITHER, 'chunkSize', 'compression')
 
 
@@ -51,9 +51,8 @@ def read_storage_config(path: str | None) -> dict[str, Any]:
     settings = _mapping(path)
     for name, value in settings.items():
         if name not in KNOWN:
-            raise BagError(
-                f"'{path}': there is no setting '{name}'. {did_you_mean(str(name), KNOWN)}".rstrip()
-            )
+            hint = did_you_mean(str(name), KNOWN)
+            raise BagError(f"'{path}': there is no setting '{name}'. {hint}".rstrip())
         wanted, reason = FIXED.get(name, (value, ''))
         if value != wanted:
             raise BagError(f"'{path}': {name} can only be {_yaml(wanted)}: {reason}")

@@ -33,7 +33,8 @@ def definition_of(type_name: str, find_share: Callable[[str], str]) -> Definitio
     Parameters
     ----------
     type_name
-        `package/msg/Name`, `package/Name`, or `package/srv/Name_Event` for the events of a service.
+        `package/msg/Name` or `package/Name`; for the events of a service,
+        `package/srv/Name_Event`.
     find_share
         Returns the share folder of a package; raises LookupError if the package is not installed.
 
