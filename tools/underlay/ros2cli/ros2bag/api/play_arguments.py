@@ -182,7 +182,9 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
         '--service-requests-source',
         choices=['service_introspection', 'client_introspection'],
         default='service_introspection',
-        help='whose events have the requests: those of the server, or those of the clients',
+        metavar='SOURCE',
+        help='whose events have the requests, those of the server or of the clients: %(choices)s '
+        '(default: %(default)s)',
     )
     parser.add_argument(
         '-m',
