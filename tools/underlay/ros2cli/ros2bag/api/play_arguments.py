@@ -376,7 +376,7 @@ def request_source(args: argparse.Namespace) -> str:
         The options of `add_choice_arguments`.
 
     """
-    return args.service_requests_source if args.publish_service_requests else ''
+    return str(args.service_requests_source) if args.publish_service_requests else ''
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:
