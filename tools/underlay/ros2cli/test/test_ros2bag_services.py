@@ -15,10 +15,10 @@ from typing import Any
 
 from example_interfaces.srv import AddTwoInts
 import pytest
+from rclpy.serialization import deserialize_message
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.definitions import definition_of
 from ros2bag.storage.service_events import CallCounts, count_calls, Service, service_of
-from rosbags.highlevel import AnyReader
 
 Start = Callable[..., Any]
 Ros2 = Callable[..., CompletedProcess[str]]
@@ -68,12 +68,12 @@ def _record(start_ros2: Start, folder: Path, *words: str) -> None:
 def test_record_and_list(
     adder: None, start_ros2: Start, ros2_here: Ros2, tmp_path: Path, words: list[str]
 ) -> None:
-    """Other programs can read the events, and `info` counts them as calls."""
+    """The events have the requests, and `info` counts them as calls."""
     folder = tmp_path / 'bag'
     _record(start_ros2, folder, *words)
     assert [each.topic.name for each in BagReader(str(folder)).metadata.topics] == [EVENTS]
-    with AnyReader([folder]) as reader:
-        events = [reader.deserialize(raw, c.msgtype) for c, _, raw in reader.messages()]
+    recorded = BagReader(str(folder)).messages()
+    events = [deserialize_message(message.data, AddTwoInts.Event) for message in recorded]
     requests = [event.request[0] for event in events if len(event.request)]
     assert requests and all((each.a, each.b) == (2, 3) for each in requests)
     info = ros2_here('bag', 'info', str(folder)).stdout

@@ -263,8 +263,10 @@ def _writer_options(values: Mapping[str, Any], path: str) -> WriterOptions:
                 f"'{path}': compression_mode needs a compression_format as well: zstd or lz4"
             )
         compression = values['compression_format']
+    storage: dict[str, Any] = {'compression': compression}
+    storage |= read_storage_config(values['storage_config_uri'])
     return WriterOptions(
-        **{'compression': compression, **read_storage_config(values['storage_config_uri'])},
+        **storage,
         max_bytes=int(values['max_bagfile_size']),
         max_duration_ns=int(values['max_bagfile_duration'] * NS_PER_S),
         ros_distro=os.environ.get('ROS_DISTRO', WriterOptions.ros_distro),

@@ -182,7 +182,9 @@ def add_choice_arguments(parser: argparse.ArgumentParser) -> None:
         '--service-requests-source',
         choices=['service_introspection', 'client_introspection'],
         default='service_introspection',
-        help='whose events have the requests: those of the server, or those of the clients',
+        metavar='SOURCE',
+        help='whose events have the requests, those of the server or of the clients: %(choices)s '
+        '(default: %(default)s)',
     )
     parser.add_argument(
         '-m',
@@ -374,7 +376,7 @@ def request_source(args: argparse.Namespace) -> str:
         The options of `add_choice_arguments`.
 
     """
-    return args.service_requests_source if args.publish_service_requests else ''
+    return str(args.service_requests_source) if args.publish_service_requests else ''
 
 
 def filter_of(args: argparse.Namespace) -> TopicFilter:

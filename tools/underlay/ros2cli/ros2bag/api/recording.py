@@ -144,8 +144,10 @@ def find_definition(type_name: str) -> Definition:
 
 
 def _options(args: argparse.Namespace) -> WriterOptions:
+    storage: dict[str, Any] = {'compression': compression_of(args)}
+    storage |= read_storage_config(args.storage_config_file)
     return WriterOptions(
-        **{'compression': compression_of(args), **read_storage_config(args.storage_config_file)},
+        **storage,
         max_bytes=args.max_bag_size,
         max_duration_ns=int(args.max_bag_duration * NS_PER_S),
         ros_distro=os.environ.get('ROS_DISTRO', DEFAULT_DISTRO),

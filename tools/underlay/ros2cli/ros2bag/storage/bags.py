@@ -69,7 +69,7 @@ class Bags:
 
         """
         streams = [reader.messages(topics, start_ns) for reader in self._readers]
-        return streams[0] if len(streams) == 1 else merge(*streams, key=lambda each: each.log_ns)
+        return streams[0] if len(streams) == 1 else iter(merge(*streams, key=_time))
 
     def definition(self, type_name: str) -> Definition:
         """
@@ -85,6 +85,10 @@ class Bags:
             if (found := reader.definitions().get(type_name)) and found.text:
                 return found
         return Definition()
+
+
+def _time(message: RecordedMessage) -> int:
+    return message.log_ns
 
 
 def _joined(parts: Sequence[BagMetadata]) -> dict[str, str]:

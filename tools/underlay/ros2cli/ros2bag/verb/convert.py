@@ -19,7 +19,8 @@ output_bags:
   compression_mode: file
   compression_format: zstd
 
-Bags of ROS 1 or in sqlite3: rosbags-convert --src OLD --dst NEW --dst-storage mcap"""
+Bags of ROS 1 or in sqlite3:
+rosbags-convert --src OLD --dst NEW --dst-storage mcap"""
 
 
 class ConvertVerb(VerbExtension):

@@ -46,8 +46,8 @@ class InfoVerb(VerbExtension):
             '-v',
             '--verbose',
             action='store_true',
-            help='print for each topic its average rate, type hash and quality of service as well, and '
-            'for each service its requests and responses, which needs a look at all of its events',
+            help='print for each topic its average rate, type hash and quality of service as '
+            'well, and for each service how many requests and responses were recorded',
         )
 
     def main(self, *, args: argparse.Namespace) -> int | str | None:

@@ -54,6 +54,6 @@ class ControlCommand(VerbCommand):
         ),
         'view_controller_chains': Entry(
             'ros2controlcli.verb.view_controller_chains:ViewControllerChainsVerb',
-            'Generate a diagram of the loaded chained controllers',
+            'Draw the loaded controllers and their chains',
         ),
     }

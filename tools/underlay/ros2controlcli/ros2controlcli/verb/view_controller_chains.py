@@ -13,7 +13,7 @@ SOURCE = Path('/tmp/controller_diagram.gv')
 
 
 class ViewControllerChainsVerb(VerbExtension):
-    """Generate a diagram of the loaded chained controllers into /tmp/controller_diagram.gv.pdf."""
+    """Draw the controllers and their chains, into /tmp/controller_diagram.gv.pdf."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
