@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2bag.api.common_arguments import (
     add_log_level_argument,
@@ -35,7 +36,7 @@ __all__ = [
 CLOCK_HZ = 40.0
 FOR_EVER_NS = 2**63 - 1
 NS_PER_S = 1_000_000_000
-AS_FAST_AS_POSSIBLE = {
+AS_FAST_AS_POSSIBLE: dict[str, Any] = {
     'rate': float('inf'),
     'loop': False,
     'clock': None,
