@@ -320,14 +320,14 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
         '--playback-until-sec',
         type=float,
         default=-1.0,
-        metavar='SECONDS',
+        metavar='S',
         help='stop at this recorded time, in seconds since 1970; negative for no limit',
     )
     until.add_argument(
         '--playback-until-nsec',
         type=int,
         default=-1,
-        metavar='NANOSECONDS',
+        metavar='NS',
         help='the same in nanoseconds',
     )
 
