@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import Any
 
 from ros2bag.api.common_arguments import (
     add_log_level_argument,
@@ -35,7 +36,7 @@ __all__ = [
 CLOCK_HZ = 40.0
 FOR_EVER_NS = 2**63 - 1
 NS_PER_S = 1_000_000_000
-AS_FAST_AS_POSSIBLE = {
+AS_FAST_AS_POSSIBLE: dict[str, Any] = {
     'rate': float('inf'),
     'loop': False,
     'clock': None,
@@ -319,14 +320,14 @@ def add_span_arguments(parser: argparse.ArgumentParser) -> None:
         '--playback-until-sec',
         type=float,
         default=-1.0,
-        metavar='SECONDS',
+        metavar='S',
         help='stop at this recorded time, in seconds since 1970; negative for no limit',
     )
     until.add_argument(
         '--playback-until-nsec',
         type=int,
         default=-1,
-        metavar='NANOSECONDS',
+        metavar='NS',
         help='the same in nanoseconds',
     )
 
