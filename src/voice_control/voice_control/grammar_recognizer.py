@@ -9,6 +9,7 @@ import math
 import re
 
 from pocketsphinx import Decoder, get_model_path
+from voice_control.cepstra import CEPSTRA, CepstralFrontEnd
 from voice_control.jsgf import compile_jsgf
 from voice_control.recognition import Recognition, RecognizerError
 from voice_control.recognizer_parameters import THRESHOLD
@@ -32,7 +33,6 @@ public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
 """Phrases that are recognized at all times, whatever the grammar of commands is."""
 
 _COMMANDS, _PHONES, _STOPS = 'commands', 'phones', 'stops'
-_ORIGINAL, _SUPPRESSED = 'original', 'suppressed'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
@@ -52,8 +52,8 @@ _SCORE_SCALE = 1024.0
 """The factor by which pocketsphinx scales down its log-likelihoods."""
 _SHORTEST_HALF = 3
 """Minimum number of letters of each half of a compound word."""
-_FIRST_PASSES = 3
-"""Number of passes over the first utterance that estimate the still unknown cepstral mean."""
+_NO_MEAN = ','.join('0' * CEPSTRA)
+"""The cepstral mean that pocketsphinx is to subtract: the front end has subtracted it."""
 _NO_GRAMMAR = 'Only "stop" is recognized as long as no grammar comes from the planner.'
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
@@ -150,13 +150,15 @@ class GrammarRecognizer:
         self.threshold = threshold
         self._suppress = suppress
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
-        # A best-path search through the lattice could end anywhere in the grammar.
-        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT)
+        # A best-path search through the lattice could end anywhere in the grammar. Scores are
+        # relative to the best state that is scored: only if all are, those of two searches compare.
+        self._decoder = Decoder(
+            loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT, compallsen=True
+        )
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
-        self._means = dict.fromkeys((_ORIGINAL, _SUPPRESSED), '')
-        self._kind = _ORIGINAL
+        self._original, self._suppressed = CepstralFrontEnd(), CepstralFrontEnd()
         self._commands: WordNetwork | None = None
         self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
 
@@ -222,21 +224,19 @@ class GrammarRecognizer:
             log-likelihood ratio per frame.
 
         """
-        recognition = self._recognition(sound, _ORIGINAL)
+        recognition = self._recognition(self._original.features(sound))
         is_clear = recognition.is_accepted and recognition.confidence >= _CLEAR
         if self._suppress is None or recognition.is_stop or is_clear:
             return recognition
-        return self._recognition(self._suppress(sound), _SUPPRESSED)
+        return self._recognition(self._suppressed.features(self._suppress(sound)))
 
-    def _recognition(self, sound: bytes, kind: str) -> Recognition:
-        """Recognize a sound of a kind, each of which has a cepstral mean of its own."""
-        self._kind = kind
-        self._learn_mean(sound)
-        phones = self._decoded(_PHONES, sound)
+    def _recognition(self, features: bytes) -> Recognition:
+        """Recognize an utterance from the features of its front end."""
+        phones = self._decoded(_PHONES, features)
         command = _NOTHING
         if self._commands is not None:
-            command = self._fit(_COMMANDS, sound, phones)
-        stop = self._fit(_STOPS, sound, phones)
+            command = self._fit(_COMMANDS, features, phones)
+        stop = self._fit(_STOPS, features, phones)
         is_like = command.ratio >= self.threshold
         words = command.text.split()
         if _STOP_WORDS.intersection(words[:_STOP_WITHIN]) and (
@@ -283,24 +283,12 @@ class GrammarRecognizer:
                 return True
         return False
 
-    def _learn_mean(self, sound: bytes) -> None:
-        """
-        Update the cepstral mean, by which all searches normalize audio, with an utterance.
-
-        pocketsphinx would update it after each search, so that successive searches would have
-        different means.
-        """
-        for _ in range(1 if self._means[self._kind] else _FIRST_PASSES):
-            self._decoded(_STOPS, sound)  # the fastest search
-            self._means[self._kind] = self._decoder.get_cmn()
-
-    def _decoded(self, search: str, sound: bytes) -> list[_Segment]:
-        """Decode a sound into the words or phones of a search."""
+    def _decoded(self, search: str, features: bytes) -> list[_Segment]:
+        """Decode an utterance into the words or phones of a search."""
         self._decoder.activate_search(search)
-        if mean := self._means[self._kind]:
-            self._decoder.set_cmn(mean)
+        self._decoder.set_cmn(_NO_MEAN)
         self._decoder.start_utt()
-        self._decoder.process_raw(sound)
+        self._decoder.process_cep(features)
         self._decoder.end_utt()
         return [
             _Segment(
@@ -309,9 +297,9 @@ class GrammarRecognizer:
             for each in self._decoder.seg() or ()
         ]
 
-    def _fit(self, search: str, sound: bytes, phones: Sequence[_Segment]) -> _Fit:
+    def _fit(self, search: str, features: bytes, phones: Sequence[_Segment]) -> _Fit:
         """Decode an utterance; compute its log-likelihood ratio to the phone loop, per frame."""
-        segments = self._decoded(search, sound)
+        segments = self._decoded(search, features)
         words = [segment for segment in segments if segment.name[0] not in '<([']
         if not words:
             return _NOTHING
