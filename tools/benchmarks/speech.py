@@ -97,12 +97,10 @@ SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
 KINDS_OF_COMMANDS = ('right', 'article', 'wrong', 'rejected')
 KINDS_OF_OTHERS = ('taken', 'taken for a stop')
-THRESHOLDS = (-4.0, -3.8, -3.6, -3.4, -3.2, -3.0, -2.8, -2.6, -2.4, -2.2, -2.0)
+THRESHOLDS = (-2.4, -2.0, -1.8, -1.6, -1.4, -1.2, -1.0, -0.8, -0.6, -0.4)
 """The thresholds of `--roc`."""
 ACCEPT_ALL = -100.0
 """A threshold below the ratio of any utterance."""
-SHORT_STOP = 4
-"""Stop phrases of so many words are accepted whatever the threshold."""
 
 
 @dataclass(frozen=True)
@@ -229,9 +227,9 @@ def main() -> int:
         )
         for threshold in THRESHOLDS if options.roc else ():
             counts = row.above(threshold)
-            right, taken = counts['right'] / len(commands), counts['taken'] / len(others)
-            stop = counts['taken for a stop'] / len(others)
-            print(f'{threshold:>18.1f}{right:>7.0%}{taken:>40.0%}{stop:>12.0%}')
+            right, article = (counts[kind] / len(commands) for kind in ('right', 'article'))
+            taken, stop = (counts[kind] / len(others) for kind in KINDS_OF_OTHERS)
+            print(f'{threshold:>18.1f}{right:>7.0%}{article:>9.0%}{taken:>31.0%}{stop:>12.0%}')
     return 0
 
 
@@ -315,8 +313,7 @@ def measured(
         kind = kind_of(text, heard, planner, world, is_other=text in others)
         row.counts[kind] += 1
         if kind not in ('rejected', 'left', 'missed'):
-            is_short_stop = heard.is_stop and len(heard.text.split()) <= SHORT_STOP
-            row.accepted.append((kind, math.inf if is_short_stop else heard.confidence))
+            row.accepted.append((kind, math.inf if heard.is_stop else heard.confidence))
         if options.list and kind not in ('right', 'left', 'stop'):
             print(f'    {kind}: {text!r} -> {heard.text!r} ({heard.confidence:.2f})')
     return row

@@ -11,6 +11,8 @@ import re
 from pocketsphinx import Decoder, get_model_path
 from voice_control.cepstra import CEPSTRA, CepstralFrontEnd
 from voice_control.jsgf import compile_jsgf
+from voice_control.noise_suppression import signal_to_noise_db
+from voice_control.pronunciations import FLUENT
 from voice_control.recognition import Recognition, RecognizerError
 from voice_control.recognizer_parameters import THRESHOLD
 from voice_control.word_network import WordNetwork
@@ -18,12 +20,14 @@ from voice_control.word_network import WordNetwork
 __all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
-STOP_THRESHOLD = -2.25
+STOP_THRESHOLD = -2.3
 """The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
-STOP_MARGIN = 0.8
-"""The margin by which such a phrase must fit better than the closest command."""
-_CLEAR = -2.0
-"""The ratio above which an utterance is not decoded again after noise suppression."""
+STOP_MARGIN = 1.2
+"""How much better than such a phrase the closest command may fit: to miss a stop is worse."""
+CLEAR_STOP = -1.6
+"""The ratio above which such a phrase in noise is believed before noise suppression."""
+NOISY_DB = 30.0
+"""The signal-to-noise ratio below which commands are sought after noise suppression only."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
@@ -43,11 +47,6 @@ of pocketsphinx has no effect on a grammar that comes from a program.
 """
 _PHONE_WEIGHT = 3.0
 """Language weight of the phone loop."""
-_SHORT_STOP = 4
-"""
-Maximum number of words of a sentence that stops the robot however badly it fits; a longer one may
-match by chance.
-"""
 _SCORE_SCALE = 1024.0
 """The factor by which pocketsphinx scales down its log-likelihoods."""
 _SHORTEST_HALF = 3
@@ -119,21 +118,20 @@ class GrammarRecognizer:
 
     A grammar forces any sound into its words. An utterance is therefore decoded a second time by a
     phone loop, in which phones follow in any order: the log-likelihood ratio of the two, averaged
-    over the frames of the words, separates commands (mostly -1 to -3) from other sentences (mostly
-    below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
-    addition, since a short "stop" is easily confused with another of some hundred words.
+    over the frames, separates commands (mostly above -1) from other sentences (mostly below), as
+    measured with synthetic voices. Stop words have a small grammar of their own in addition, since
+    a short "stop" is easily confused with another of some hundred words. A phrase of it counts if
+    its own ratio is high enough, and no command fits much better.
 
     Before the first grammar, only stop phrases are recognized.
 
-    With noise suppression, an utterance that does not fit a command well is decoded again without
-    its noise. Stop phrases are always looked for in the original one, since suppression may take
-    a short word for noise.
+    With noise suppression, commands in a noisy utterance are sought without its noise. Stop phrases
+    are sought before that, too, since suppression may take a short word for noise.
 
     Parameters
     ----------
     threshold
-        The minimum log-likelihood ratio per frame for acceptance; a short sentence with a stop
-        word is always accepted.
+        The minimum log-likelihood ratio per frame for acceptance of a command.
     dictionary
         Words with their phones, in addition to the 135,000 of CMUdict.
     suppress
@@ -155,6 +153,8 @@ class GrammarRecognizer:
         self._decoder = Decoder(
             loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT, compallsen=True
         )
+        for word, phones in FLUENT.items():
+            self._add_variant(word, phones)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
@@ -224,10 +224,12 @@ class GrammarRecognizer:
             log-likelihood ratio per frame.
 
         """
-        recognition = self._recognition(self._original.features(sound))
-        is_clear = recognition.is_accepted and recognition.confidence >= _CLEAR
-        if self._suppress is None or recognition.is_stop or is_clear:
-            return recognition
+        if self._suppress is None or signal_to_noise_db(sound) >= NOISY_DB:
+            return self._recognition(self._original.features(sound))
+        features = self._original.features(sound)
+        stop = self._fit(_STOPS, features, self._decoded(_PHONES, features))
+        if stop.ratio >= CLEAR_STOP:
+            return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         return self._recognition(self._suppressed.features(self._suppress(sound)))
 
     def _recognition(self, features: bytes) -> Recognition:
@@ -237,19 +239,17 @@ class GrammarRecognizer:
         if self._commands is not None:
             command = self._fit(_COMMANDS, features, phones)
         stop = self._fit(_STOPS, features, phones)
-        is_like = command.ratio >= self.threshold
-        words = command.text.split()
-        if _STOP_WORDS.intersection(words[:_STOP_WITHIN]) and (
-            is_like or len(words) <= _SHORT_STOP
-        ):
-            return Recognition(command.text, command.ratio, BACKEND, is_stop=True)
-        if stop.ratio >= max(STOP_THRESHOLD, command.ratio + STOP_MARGIN):
+        if stop.ratio >= max(STOP_THRESHOLD, command.ratio - STOP_MARGIN):
             return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
+        words = command.text.split()
         if not words:
             reason = _NO_GRAMMAR if self._commands is None else 'No command was recognized.'
             return Recognition('', -math.inf, BACKEND, reason)
+        if command.ratio >= self.threshold:
+            is_stop = not _STOP_WORDS.isdisjoint(words[:_STOP_WITHIN])
+            return Recognition(command.text, command.ratio, BACKEND, is_stop=is_stop)
         closest = f'It did not sound much like "{command.text}", the closest command.'
-        return Recognition(command.text, command.ratio, BACKEND, '' if is_like else closest)
+        return Recognition(command.text, command.ratio, BACKEND, closest)
 
     def _add(self, search: str, network: WordNetwork) -> None:
         """Create a decoder search from a word network; it replaces one of the same name."""
@@ -271,6 +271,13 @@ class GrammarRecognizer:
         fsg = self._decoder.create_fsg(search, 0, last, [*arcs, *ends])
         self._decoder.add_fsg(search, fsg)
         self._decoder.activate_search(search)
+
+    def _add_variant(self, word: str, phones: str) -> None:
+        """Add a further pronunciation of a word: those after the first are numbered from 2 on."""
+        number = 2
+        while self._decoder.lookup_word(f'{word}({number})') is not None:
+            number += 1
+        self._decoder.add_word(f'{word}({number})', phones, True)
 
     def _knows(self, word: str) -> bool:
         """Check whether a word has a pronunciation; add that of a compound from its halves."""
@@ -303,10 +310,8 @@ class GrammarRecognizer:
         words = [segment for segment in segments if segment.name[0] not in '<([']
         if not words:
             return _NOTHING
-        first, last = words[0].first, words[-1].last
-        of_words = sum(
-            each.score for each in segments if each.first >= first and each.last <= last
-        )
+        first, last = segments[0].first, segments[-1].last
+        of_words = sum(each.score for each in segments)
         of_phones = sum(
             each.score
             * max(0, min(each.last, last) - max(each.first, first) + 1)
