@@ -9,6 +9,7 @@ import math
 import re
 
 from pocketsphinx import Decoder, get_model_path
+from voice_control.audio import duration_s
 from voice_control.cepstra import CEPSTRA, CepstralFrontEnd
 from voice_control.jsgf import compile_jsgf
 from voice_control.noise_suppression import signal_to_noise_db
@@ -26,6 +27,8 @@ STOP_MARGIN = 1.2
 """How much better than such a phrase the closest command may fit: to miss a stop is worse."""
 CLEAR_STOP = -1.6
 """The ratio above which such a phrase in noise is believed before noise suppression."""
+_LONGEST_STOP_S = 1.5
+"""The length of an utterance up to which such phrases are sought before noise suppression."""
 NOISY_DB = 30.0
 """The signal-to-noise ratio below which commands are sought after noise suppression only."""
 STOP_GRAMMAR = """#JSGF V1.0;
@@ -226,10 +229,11 @@ class GrammarRecognizer:
         """
         if self._suppress is None or signal_to_noise_db(sound) >= NOISY_DB:
             return self._recognition(self._original.features(sound))
-        features = self._original.features(sound)
-        stop = self._fit(_STOPS, features, self._decoded(_PHONES, features))
-        if stop.ratio >= CLEAR_STOP:
-            return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
+        if duration_s(sound) <= _LONGEST_STOP_S:
+            features = self._original.features(sound)
+            stop = self._fit(_STOPS, features, self._decoded(_PHONES, features))
+            if stop.ratio >= CLEAR_STOP:
+                return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
         return self._recognition(self._suppressed.features(self._suppress(sound)))
 
     def _recognition(self, features: bytes) -> Recognition:

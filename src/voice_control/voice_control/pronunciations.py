@@ -2,9 +2,10 @@
 """
 Pronunciations of fluent American English that CMUdict does not have.
 
-Weak forms of function words: J. C. Wells, "Accents of English" (1982), chapter 3. The vowel of "ball"
-is that of "bottle" for about half of the speakers (the cot-caught merger): W. Labov, S. Ash and
-C. Boberg, "The Atlas of North American English" (2006), chapter 9.
+Weak forms of function words: J. C. Wells, "Accents of English" (1982), chapter 3. The vowel of "hall"
+is that of "hot" for about half of the speakers (the cot-caught merger): W. Labov, S. Ash and
+C. Boberg, "The Atlas of North American English" (2006), chapter 9. "Ball" is left out, since it
+would then sound too much like "bottle".
 """
 
 from __future__ import annotations
@@ -23,8 +24,7 @@ FLUENT: Mapping[str, str] = {
     'you': 'Y AH',
     'your': 'Y ER',
     'all': 'AA L',
-    'ball': 'B AA L',
-    'balls': 'B AA L Z',
+    'corridor': 'K AO R AH D AO R',
     'hall': 'HH AA L',
     'small': 'S M AA L',
     'tall': 'T AA L',

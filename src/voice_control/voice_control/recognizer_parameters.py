@@ -10,7 +10,7 @@ from humanoid_common.parameters import parameter
 __all__ = ['THRESHOLD', 'RecognizerParameters']
 
 POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI = 'pocketsphinx', 'whisper', 'whisper_cpp', 'openai'
-THRESHOLD = -1.2
+THRESHOLD = -1.0
 """The default minimum log-likelihood ratio per frame of a command."""
 
 
