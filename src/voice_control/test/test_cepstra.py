@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pocketsphinx import Decoder
 import pytest
 from voice_control.audio import read_wav
-from voice_control.cepstra import CEPSTRA, CepstralFrontEnd, cepstra
+from voice_control.cepstra import CEPSTRA, cepstra, CepstralFrontEnd
 
 SOUND = read_wav(Path(__file__).parent / 'speech' / 'go_to_the_kitchen.slt.wav')
 

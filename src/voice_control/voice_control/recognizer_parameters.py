@@ -57,7 +57,7 @@ class RecognizerParameters:
     )
     noise_suppression: bool = parameter(
         True,
-        'Whether pocketsphinx decodes what fits no command well again without steady noise.',
+        'Whether pocketsphinx removes steady noise before it seeks commands in a noisy utterance.',
         read_only=True,
     )
     vad_mode: int = parameter(
