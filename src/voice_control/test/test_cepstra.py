@@ -33,7 +33,8 @@ def test_cepstra_are_those_of_pocketsphinx(tmp_path: Path) -> None:
     expected = np.frombuffer(second.read_bytes()[4:], '>f4').reshape(-1, CEPSTRA)
     found = cepstra(SOUND)
     assert abs(len(expected) - len(found)) <= 1
-    assert np.abs(found[50:] - expected[50 : len(found)]).max() < 0.05
+    count = min(len(expected), len(found))
+    assert np.abs(found[50:count] - expected[50:count]).max() < 0.05
 
 
 def test_features_hardly_depend_on_loudness() -> None:

@@ -161,7 +161,7 @@ def _filters() -> Array:
     mels = 2595.0 * np.log10(1.0 + np.array([_LOWEST_HZ, _HIGHEST_HZ]) / 700.0)
     edges_hz = 700.0 * (10.0 ** (np.linspace(mels[0], mels[1], _BANDS + 2) / 2595.0) - 1.0)
     edges_hz = np.floor(edges_hz / step_hz + 0.5) * step_hz  # at bins
-    low, middle, high = (edges_hz[first : first + _BANDS, None] for first in range(3))
+    low, middle, high = np.lib.stride_tricks.sliding_window_view(edges_hz, 3).T[:, :, None]
     hz = np.arange(_FFT // 2 + 1) * step_hz
     slopes = np.minimum((hz - low) / (middle - low), (high - hz) / (high - middle))
     return np.asarray(np.maximum(slopes, 0.0) * 2.0 / (high - low))

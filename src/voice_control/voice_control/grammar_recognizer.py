@@ -21,9 +21,9 @@ from voice_control.word_network import WordNetwork
 __all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
-STOP_THRESHOLD = -2.3
+STOP_THRESHOLD = -2.7
 """The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
-STOP_MARGIN = 1.2
+STOP_MARGIN = 1.8
 """How much better than such a phrase the closest command may fit: to miss a stop is worse."""
 CLEAR_STOP = -1.6
 """The ratio above which such a phrase in noise is believed before noise suppression."""
@@ -128,8 +128,8 @@ class GrammarRecognizer:
 
     Before the first grammar, only stop phrases are recognized.
 
-    With noise suppression, commands in a noisy utterance are sought without its noise. Stop phrases
-    are sought before that, too, since suppression may take a short word for noise.
+    With noise suppression, commands in a noisy utterance are sought without its noise. In a short
+    one, stop phrases are sought before that, too: suppression may take a short word for noise.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ class GrammarRecognizer:
         self._suppress = suppress
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
         # A best-path search through the lattice could end anywhere in the grammar. Scores are
-        # relative to the best state that is scored: only if all are, those of two searches compare.
+        # relative to the best state that is scored: those of two searches compare if all are.
         self._decoder = Decoder(
             loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT, compallsen=True
         )
