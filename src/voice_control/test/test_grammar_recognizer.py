@@ -211,7 +211,9 @@ def test_a_command_in_noise_is_sought_without_it() -> None:
         ('go_to_the_kitchen.awb', 200.0, 1),
     ],
 )
-def test_what_is_clear_and_a_clear_stop_need_no_suppression(name: str, noise: float, count: int) -> None:
+def test_what_is_clear_and_a_clear_stop_need_no_suppression(
+    name: str, noise: float, count: int
+) -> None:
     """Suppression takes time, and may take a short word for noise."""
     asked = []
 
