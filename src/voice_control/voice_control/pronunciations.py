@@ -3,9 +3,9 @@
 Pronunciations of fluent American English that CMUdict does not have.
 
 Weak forms of function words: J. C. Wells, "Accents of English" (1982), chapter 3. The vowel of
-"hall" is that of "hot" for about half of the speakers (the cot-caught merger): W. Labov, S. Ash and
-C. Boberg, "The Atlas of North American English" (2006), chapter 9. "Ball" is left out, since it
-would then sound too much like "bottle".
+"hall" is that of "hot" for about half of the speakers (the cot-caught merger): W. Labov, S. Ash
+and C. Boberg, "The Atlas of North American English" (2006), chapter 9. "Ball" is left out, since
+it would then sound too much like "bottle".
 """
 
 from __future__ import annotations
