@@ -5,10 +5,12 @@ Count how many spoken commands are understood, and how many other sentences are 
 Synthesizers of the system, flite and espeak-ng, speak the commands of the planner's tests, and
 sentences that are not commands; the recogniser has the grammar of the planner in the apartment,
 or is Whisper with a model of yours (`--whisper FOLDER`), beside which the grammar hears "stop".
-A command is right if the plan of the recognized text equals that of the spoken one. In the column
-"article" are those whose plan differs only by "a" for "the" or the other way round, and in
-"wrong" all the rest. Others are taken for a command or for a stop. A stop is right if it stops the
-robot. `--roc` counts for several thresholds which commands are right, and which others are taken.
+A command is right if what would be done is the same as for the spoken text: the plans are equal,
+or differ only by "a" for "the" or the other way round, in the column "article", where both lead to
+a plan. ("The mug" makes the robot ask, and not act, if it knows two; that counts as rejected.)
+In "wrong" are all the rest. Others are taken for a command or for a stop. A stop is right if it
+stops the robot. `--roc` counts for several thresholds which commands are right, and which others
+are taken.
 """
 
 from __future__ import annotations
@@ -26,6 +28,7 @@ import subprocess
 import sys
 from tempfile import TemporaryDirectory
 import time
+from zlib import crc32
 
 from arguments import in_range
 from humanoid_common.errors import UserError
@@ -36,7 +39,7 @@ from llm_planner.world import World
 import numpy as np
 from numpy.typing import NDArray
 from planner import apartment, KINDS, TESTS
-from voice_control.audio import AudioError, chunks, duration_s, read_wav, wav_of
+from voice_control.audio import AudioError, chunks, duration_s, RATE_HZ, read_wav, wav_of
 from voice_control.grammar_recognizer import GrammarRecognizer
 from voice_control.noise_suppression import NoiseSuppressor
 from voice_control.recognition import Listener
@@ -94,12 +97,10 @@ SAY = re.compile(r'say (dinner|good)|.* say done')
 PEAK = 12_000.0
 KINDS_OF_COMMANDS = ('right', 'article', 'wrong', 'rejected')
 KINDS_OF_OTHERS = ('taken', 'taken for a stop')
-THRESHOLDS = (-4.0, -3.8, -3.6, -3.4, -3.2, -3.0, -2.8, -2.6, -2.4, -2.2, -2.0)
+THRESHOLDS = (-2.4, -2.0, -1.8, -1.6, -1.4, -1.2, -1.0, -0.8, -0.6, -0.4)
 """The thresholds of `--roc`."""
 ACCEPT_ALL = -100.0
 """A threshold below the ratio of any utterance."""
-SHORT_STOP = 4
-"""Stop phrases of so many words are accepted whatever the threshold."""
 
 
 @dataclass(frozen=True)
@@ -139,16 +140,30 @@ class Row:
 def main() -> int:
     """Measure and print a table."""
     parser = argparse.ArgumentParser(description=__doc__.strip().split('\n')[0])
-    parser.add_argument(
+    level = parser.add_mutually_exclusive_group()
+    level.add_argument(
+        '--snr', type=in_range(float, -20.0, 100.0), metavar='DB',
+        help='add white noise at this signal-to-noise ratio (dB) to each sentence: '
+        'that of the mean powers of speech without its pauses, and of noise',
+    )  # fmt: skip
+    level.add_argument(
         '--noise', type=in_range(float, 0.0, 10_000.0), default=10.0,
-        help='standard deviation of the noise beside speech with a peak of 12000; 200 is 20 dB',
+        help='standard deviation of the noise beside speech with a peak of 12000',
     )  # fmt: skip
     parser.add_argument(
         '--threshold', type=float, default=THRESHOLD, help='that of the recogniser'
     )
-    parser.add_argument(
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
         '--held-out', action='store_true',
         help='the sentences of speech_held_out.yaml, not those of the tests',
+    )  # fmt: skip
+    which.add_argument(
+        '--development', action='store_true', help='the sentences of speech_development.yaml'
+    )
+    parser.add_argument(
+        '--recordings', type=Path, metavar='FOLDER',
+        help='keep what was synthesized in a folder, and use what is there already',
     )  # fmt: skip
     parser.add_argument(
         '--every', type=in_range(int, 1), default=1, help='only each n-th sentence'
@@ -181,7 +196,10 @@ def main() -> int:
     if options.samples:
         write_samples(options.samples, planner.to_jsgf(world))
         return 0
-    commands, others = held_out() if options.held_out else (of_tests(), OTHER)
+    commands, others = of_tests(), OTHER
+    if options.held_out or options.development:
+        name = 'held_out' if options.held_out else 'development'
+        commands, others = written_in(Path(__file__).with_name(f'speech_{name}.yaml'))
     commands, others = commands[:: options.every], others[:: options.every]
     try:
         suppress = None if options.raw else NoiseSuppressor().suppress
@@ -209,9 +227,9 @@ def main() -> int:
         )
         for threshold in THRESHOLDS if options.roc else ():
             counts = row.above(threshold)
-            right, taken = counts['right'] / len(commands), counts['taken'] / len(others)
-            stop = counts['taken for a stop'] / len(others)
-            print(f'{threshold:>18.1f}{right:>7.0%}{taken:>40.0%}{stop:>12.0%}')
+            right, article = (counts[kind] / len(commands) for kind in ('right', 'article'))
+            taken, stop = (counts[kind] / len(others) for kind in KINDS_OF_OTHERS)
+            print(f'{threshold:>18.1f}{right:>7.0%}{article:>9.0%}{taken:>31.0%}{stop:>12.0%}')
     return 0
 
 
@@ -221,9 +239,17 @@ def of_tests() -> Sequence[str]:
     return [text for kind in KINDS for text in said[kind] if not SAY.match(text)]
 
 
-def held_out() -> tuple[Sequence[str], Sequence[str]]:
-    """Return the commands and the other sentences of speech_held_out.yaml."""
-    said = yaml.safe_load(Path(__file__).with_name('speech_held_out.yaml').read_text())
+def written_in(path: Path) -> tuple[Sequence[str], Sequence[str]]:
+    """
+    Return the commands and the other sentences of a file.
+
+    Parameters
+    ----------
+    path
+        A YAML file with the lists `commands` and `others`.
+
+    """
+    said = yaml.safe_load(path.read_text())
     return said['commands'], said['others']
 
 
@@ -274,12 +300,12 @@ def measured(
     listener
         The recogniser to measure.
     options
-        The command line: `noise` and `list`.
+        The command line: `snr`, `noise`, `recordings` and `list`.
 
     """
     row = Row()
     for number, text in enumerate([*commands, *others, *STOPS]):
-        sound = spoken(words, text, options.noise, number)
+        sound = spoken(words, text, options, number)
         begin_s = time.process_time()
         heard = recognized(listener, sound)
         row.cpu_s += time.process_time() - begin_s
@@ -287,8 +313,7 @@ def measured(
         kind = kind_of(text, heard, planner, world, is_other=text in others)
         row.counts[kind] += 1
         if kind not in ('rejected', 'left', 'missed'):
-            is_short_stop = heard.is_stop and len(heard.text.split()) <= SHORT_STOP
-            row.accepted.append((kind, math.inf if is_short_stop else heard.confidence))
+            row.accepted.append((kind, math.inf if heard.is_stop else heard.confidence))
         if options.list and kind not in ('right', 'left', 'stop'):
             print(f'    {kind}: {text!r} -> {heard.text!r} ({heard.confidence:.2f})')
     return row
@@ -348,7 +373,7 @@ def without_articles(steps: Steps | None) -> Steps | None:
     return tuple((skill, DEFINITE.sub('', arguments)) for skill, arguments in steps)
 
 
-def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
+def spoken(words: list[str], text: str, options: argparse.Namespace, seed: int) -> bytes:
     """
     Synthesize a sentence with silence and noise around it.
 
@@ -358,8 +383,8 @@ def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
         The command of the voice.
     text
         The sentence.
-    noise
-        The standard deviation of the noise, in steps of 16-bit samples.
+    options
+        The command line: `snr`, `noise` and `recordings`.
     seed
         The seed of the noise.
 
@@ -369,9 +394,58 @@ def spoken(words: list[str], text: str, noise: float, seed: int) -> bytes:
         Samples in S16LE, 16 kHz, mono.
 
     """
-    samples = np.concatenate([np.zeros(8000), synthesized(words, text), np.zeros(16_000)])
+    speech = recorded(words, text, options.recordings)
+    noise = options.noise
+    if options.snr is not None:
+        noise = speech_level(speech) * 10.0 ** (-options.snr / 20.0)
+    samples = np.concatenate([np.zeros(8000), speech, np.zeros(16_000)])
     samples += np.random.default_rng(seed).normal(0.0, noise, samples.size)
     return s16le(samples)
+
+
+def speech_level(samples: NDArray[np.float64]) -> float:
+    """
+    Compute the root mean square of speech without its pauses.
+
+    Parameters
+    ----------
+    samples
+        Samples (n,) at 16 kHz. Pauses are 20 ms with 40 dB less than the loudest 20 ms.
+
+    """
+    size = RATE_HZ // 50
+    frames = np.resize(samples, (max(samples.size // size, 1), size))
+    powers = (frames**2).mean(axis=1)
+    return math.sqrt(powers[powers >= powers.max() * 1e-4].mean())
+
+
+def recorded(words: list[str], text: str, folder: Path | None) -> NDArray[np.float64]:
+    """
+    Read the recording of a sentence from a folder, or synthesize it and keep it there.
+
+    Parameters
+    ----------
+    words
+        The command of the voice.
+    text
+        The sentence.
+    folder
+        The folder; None to keep nothing.
+
+    Returns
+    -------
+    NDArray
+        As of `synthesized`.
+
+    """
+    if folder is None:
+        return synthesized(words, text)
+    voice = crc32(' '.join(words).encode())
+    path = folder / f'{re.sub("[^a-z0-9]+", "_", text.lower())}.{voice:08x}.wav'
+    if not path.exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(wav_of(s16le(synthesized(words, text))))
+    return np.frombuffer(read_wav(path), '<i2').astype(np.float64)
 
 
 def synthesized(words: list[str], text: str) -> NDArray[np.float64]:

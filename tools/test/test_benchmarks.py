@@ -47,6 +47,7 @@ def test_no_workspace_to_compare_with(name: str, folder: str, sentence: str) -> 
         (['standing_pushes', '--impulses', '-1'], "'-1' is no float at least 0."),
         (['obstacle_trials', '--first', '-1'], "'-1' is no int at least 0."),
         (['obstacle_trials', '--trials', '0'], "'0' is no int at least 1."),
+        (['speech', '--snr', '200'], "'200' is no float from -20 to 100."),
         (['network_cut', '--loss', '2'], "'2' is no float from 0 to 1."),
         (['odometry_errors', '--noise', 'inf'], "'inf' is no float at least 0."),
         (['sweep_ray', '--runs', '9'], "'9' is no int at least 10."),

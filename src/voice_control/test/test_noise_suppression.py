@@ -10,7 +10,11 @@ from numpy.typing import NDArray
 import pytest
 from voice_control import noise_suppression
 from voice_control.audio import read_wav
-from voice_control.noise_suppression import NoiseSuppressionError, NoiseSuppressor
+from voice_control.noise_suppression import (
+    NoiseSuppressionError,
+    NoiseSuppressor,
+    signal_to_noise_db,
+)
 
 SPEECH = Path(__file__).parent / 'speech'
 
@@ -46,6 +50,23 @@ def test_speech_is_kept() -> None:
     before, after = samples_of(speech), samples_of(NoiseSuppressor().suppress(speech))
     assert np.corrcoef(before, after)[0, 1] > 0.95
     assert abs(level_db(before) - level_db(after)) < 1.0
+
+
+@pytest.mark.parametrize('ratio_db', [10.0, 20.0, 30.0])
+def test_the_ratio_of_signal_to_noise_is_estimated(ratio_db: float) -> None:
+    """A tone with pauses, in white noise; within 2 dB."""
+    tone = 3000.0 * np.sin(np.arange(16_000) * 0.3)
+    samples = np.concatenate([np.zeros(3200), tone, np.zeros(3200)])
+    power = (samples**2).mean()
+    level = np.sqrt(power / 10.0 ** (ratio_db / 10.0))
+    samples += np.random.default_rng(4).normal(0.0, level, samples.size)
+    assert abs(signal_to_noise_db(samples.astype('<i2').tobytes()) - ratio_db) < 2.0
+
+
+@pytest.mark.parametrize('sound', [b'', b'\0', bytes(6400)])
+def test_silence_has_no_ratio(sound: bytes) -> None:
+    """It is zero, without a warning."""
+    assert signal_to_noise_db(sound) == 0.0
 
 
 def test_utterances_do_not_depend_on_each_other() -> None:

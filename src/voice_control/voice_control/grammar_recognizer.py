@@ -9,7 +9,11 @@ import math
 import re
 
 from pocketsphinx import Decoder, get_model_path
+from voice_control.audio import duration_s
+from voice_control.cepstra import CEPSTRA, CepstralFrontEnd
 from voice_control.jsgf import compile_jsgf
+from voice_control.noise_suppression import signal_to_noise_db
+from voice_control.pronunciations import FLUENT
 from voice_control.recognition import Recognition, RecognizerError
 from voice_control.recognizer_parameters import THRESHOLD
 from voice_control.word_network import WordNetwork
@@ -17,12 +21,16 @@ from voice_control.word_network import WordNetwork
 __all__ = ['STOP_GRAMMAR', 'GrammarRecognizer', 'read_dictionary']
 
 BACKEND = 'pocketsphinx'
-STOP_THRESHOLD = -2.25
+STOP_THRESHOLD = -2.7
 """The minimum log-likelihood ratio per frame of a phrase that stops the robot."""
-STOP_MARGIN = 0.8
-"""The margin by which such a phrase must fit better than the closest command."""
-_CLEAR = -2.0
-"""The ratio above which an utterance is not decoded again after noise suppression."""
+STOP_MARGIN = 1.8
+"""How much better than such a phrase the closest command may fit: to miss a stop is worse."""
+CLEAR_STOP = -1.6
+"""The ratio above which such a phrase in noise is believed before noise suppression."""
+_LONGEST_STOP_S = 1.5
+"""The length of an utterance up to which such phrases are sought before noise suppression."""
+NOISY_DB = 30.0
+"""The signal-to-noise ratio below which commands are sought after noise suppression only."""
 STOP_GRAMMAR = """#JSGF V1.0;
 grammar stop;
 public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
@@ -32,7 +40,6 @@ public <command> = [(please | robot)] <stop_phrase> [(please | robot)];
 """Phrases that are recognized at all times, whatever the grammar of commands is."""
 
 _COMMANDS, _PHONES, _STOPS = 'commands', 'phones', 'stops'
-_ORIGINAL, _SUPPRESSED = 'original', 'suppressed'
 _STOP_WORDS = frozenset(('stop', 'halt', 'freeze'))
 _STOP_WITHIN = 3
 """Number of initial words among which a stop word counts: "please stop", "emergency stop"."""
@@ -43,17 +50,12 @@ of pocketsphinx has no effect on a grammar that comes from a program.
 """
 _PHONE_WEIGHT = 3.0
 """Language weight of the phone loop."""
-_SHORT_STOP = 4
-"""
-Maximum number of words of a sentence that stops the robot however badly it fits; a longer one may
-match by chance.
-"""
 _SCORE_SCALE = 1024.0
 """The factor by which pocketsphinx scales down its log-likelihoods."""
 _SHORTEST_HALF = 3
 """Minimum number of letters of each half of a compound word."""
-_FIRST_PASSES = 3
-"""Number of passes over the first utterance that estimate the still unknown cepstral mean."""
+_NO_MEAN = ','.join('0' * CEPSTRA)
+"""The cepstral mean that pocketsphinx is to subtract: the front end has subtracted it."""
 _NO_GRAMMAR = 'Only "stop" is recognized as long as no grammar comes from the planner.'
 _PHRASE_OF_PHONES = re.compile(r'[A-Z]{1,2}( [A-Z]{1,2})*')
 
@@ -119,21 +121,20 @@ class GrammarRecognizer:
 
     A grammar forces any sound into its words. An utterance is therefore decoded a second time by a
     phone loop, in which phones follow in any order: the log-likelihood ratio of the two, averaged
-    over the frames of the words, separates commands (mostly -1 to -3) from other sentences (mostly
-    below -3.5), as measured with synthetic voices. Stop words have a small grammar of their own in
-    addition, since a short "stop" is easily confused with another of some hundred words.
+    over the frames, separates commands (mostly above -1) from other sentences (mostly below), as
+    measured with synthetic voices. Stop words have a small grammar of their own in addition, since
+    a short "stop" is easily confused with another of some hundred words. A phrase of it counts if
+    its own ratio is high enough, and no command fits much better.
 
     Before the first grammar, only stop phrases are recognized.
 
-    With noise suppression, an utterance that does not fit a command well is decoded again without
-    its noise. Stop phrases are always looked for in the original one, since suppression may take
-    a short word for noise.
+    With noise suppression, commands in a noisy utterance are sought without its noise. In a short
+    one, stop phrases are sought before that, too: suppression may take a short word for noise.
 
     Parameters
     ----------
     threshold
-        The minimum log-likelihood ratio per frame for acceptance; a short sentence with a stop
-        word is always accepted.
+        The minimum log-likelihood ratio per frame for acceptance of a command.
     dictionary
         Words with their phones, in addition to the 135,000 of CMUdict.
     suppress
@@ -150,13 +151,17 @@ class GrammarRecognizer:
         self.threshold = threshold
         self._suppress = suppress
         self.title = f'pocketsphinx (grammar, threshold {threshold:g})'
-        # A best-path search through the lattice could end anywhere in the grammar.
-        self._decoder = Decoder(loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT)
+        # A best-path search through the lattice could end anywhere in the grammar. Scores are
+        # relative to the best state that is scored: those of two searches compare if all are.
+        self._decoder = Decoder(
+            loglevel='FATAL', lm=None, bestpath=False, lw=_PHONE_WEIGHT, compallsen=True
+        )
+        for word, phones in FLUENT.items():
+            self._add_variant(word, phones)
         for word, phones in dictionary.items():
             self._decoder.add_word(word, phones, True)
         self._decoder.add_allphone_file(_PHONES, get_model_path('en-us/en-us-phone.lm.bin'))
-        self._means = dict.fromkeys((_ORIGINAL, _SUPPRESSED), '')
-        self._kind = _ORIGINAL
+        self._original, self._suppressed = CepstralFrontEnd(), CepstralFrontEnd()
         self._commands: WordNetwork | None = None
         self._add(_STOPS, compile_jsgf(STOP_GRAMMAR))
 
@@ -222,34 +227,33 @@ class GrammarRecognizer:
             log-likelihood ratio per frame.
 
         """
-        recognition = self._recognition(sound, _ORIGINAL)
-        is_clear = recognition.is_accepted and recognition.confidence >= _CLEAR
-        if self._suppress is None or recognition.is_stop or is_clear:
-            return recognition
-        return self._recognition(self._suppress(sound), _SUPPRESSED)
+        if self._suppress is None or signal_to_noise_db(sound) >= NOISY_DB:
+            return self._recognition(self._original.features(sound))
+        if duration_s(sound) <= _LONGEST_STOP_S:
+            features = self._original.features(sound)
+            stop = self._fit(_STOPS, features, self._decoded(_PHONES, features))
+            if stop.ratio >= CLEAR_STOP:
+                return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
+        return self._recognition(self._suppressed.features(self._suppress(sound)))
 
-    def _recognition(self, sound: bytes, kind: str) -> Recognition:
-        """Recognize a sound of a kind, each of which has a cepstral mean of its own."""
-        self._kind = kind
-        self._learn_mean(sound)
-        phones = self._decoded(_PHONES, sound)
+    def _recognition(self, features: bytes) -> Recognition:
+        """Recognize an utterance from the features of its front end."""
+        phones = self._decoded(_PHONES, features)
         command = _NOTHING
         if self._commands is not None:
-            command = self._fit(_COMMANDS, sound, phones)
-        stop = self._fit(_STOPS, sound, phones)
-        is_like = command.ratio >= self.threshold
-        words = command.text.split()
-        if _STOP_WORDS.intersection(words[:_STOP_WITHIN]) and (
-            is_like or len(words) <= _SHORT_STOP
-        ):
-            return Recognition(command.text, command.ratio, BACKEND, is_stop=True)
-        if stop.ratio >= max(STOP_THRESHOLD, command.ratio + STOP_MARGIN):
+            command = self._fit(_COMMANDS, features, phones)
+        stop = self._fit(_STOPS, features, phones)
+        if stop.ratio >= max(STOP_THRESHOLD, command.ratio - STOP_MARGIN):
             return Recognition(stop.text, stop.ratio, BACKEND, is_stop=True)
+        words = command.text.split()
         if not words:
             reason = _NO_GRAMMAR if self._commands is None else 'No command was recognized.'
             return Recognition('', -math.inf, BACKEND, reason)
+        if command.ratio >= self.threshold:
+            is_stop = not _STOP_WORDS.isdisjoint(words[:_STOP_WITHIN])
+            return Recognition(command.text, command.ratio, BACKEND, is_stop=is_stop)
         closest = f'It did not sound much like "{command.text}", the closest command.'
-        return Recognition(command.text, command.ratio, BACKEND, '' if is_like else closest)
+        return Recognition(command.text, command.ratio, BACKEND, closest)
 
     def _add(self, search: str, network: WordNetwork) -> None:
         """Create a decoder search from a word network; it replaces one of the same name."""
@@ -272,6 +276,13 @@ class GrammarRecognizer:
         self._decoder.add_fsg(search, fsg)
         self._decoder.activate_search(search)
 
+    def _add_variant(self, word: str, phones: str) -> None:
+        """Add a further pronunciation of a word: those after the first are numbered from 2 on."""
+        number = 2
+        while self._decoder.lookup_word(f'{word}({number})') is not None:
+            number += 1
+        self._decoder.add_word(f'{word}({number})', phones, True)
+
     def _knows(self, word: str) -> bool:
         """Check whether a word has a pronunciation; add that of a compound from its halves."""
         if self._decoder.lookup_word(word) is not None:
@@ -283,24 +294,12 @@ class GrammarRecognizer:
                 return True
         return False
 
-    def _learn_mean(self, sound: bytes) -> None:
-        """
-        Update the cepstral mean, by which all searches normalize audio, with an utterance.
-
-        pocketsphinx would update it after each search, so that successive searches would have
-        different means.
-        """
-        for _ in range(1 if self._means[self._kind] else _FIRST_PASSES):
-            self._decoded(_STOPS, sound)  # the fastest search
-            self._means[self._kind] = self._decoder.get_cmn()
-
-    def _decoded(self, search: str, sound: bytes) -> list[_Segment]:
-        """Decode a sound into the words or phones of a search."""
+    def _decoded(self, search: str, features: bytes) -> list[_Segment]:
+        """Decode an utterance into the words or phones of a search."""
         self._decoder.activate_search(search)
-        if mean := self._means[self._kind]:
-            self._decoder.set_cmn(mean)
+        self._decoder.set_cmn(_NO_MEAN)
         self._decoder.start_utt()
-        self._decoder.process_raw(sound)
+        self._decoder.process_cep(features)
         self._decoder.end_utt()
         return [
             _Segment(
@@ -309,16 +308,14 @@ class GrammarRecognizer:
             for each in self._decoder.seg() or ()
         ]
 
-    def _fit(self, search: str, sound: bytes, phones: Sequence[_Segment]) -> _Fit:
+    def _fit(self, search: str, features: bytes, phones: Sequence[_Segment]) -> _Fit:
         """Decode an utterance; compute its log-likelihood ratio to the phone loop, per frame."""
-        segments = self._decoded(search, sound)
+        segments = self._decoded(search, features)
         words = [segment for segment in segments if segment.name[0] not in '<([']
         if not words:
             return _NOTHING
-        first, last = words[0].first, words[-1].last
-        of_words = sum(
-            each.score for each in segments if each.first >= first and each.last <= last
-        )
+        first, last = segments[0].first, segments[-1].last
+        of_words = sum(each.score for each in segments)
         of_phones = sum(
             each.score
             * max(0, min(each.last, last) - max(each.first, first) + 1)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from voice_control.audio import RATE_HZ
 
-__all__ = ['NoiseSuppressionError', 'NoiseSuppressor']
+__all__ = ['NoiseSuppressionError', 'NoiseSuppressor', 'signal_to_noise_db']
 
 _PACKAGE, _LIBRARY = 'pyrnnoise', 'librnnoise.so'
 _NETWORK_RATE_HZ = 48_000
@@ -33,6 +33,35 @@ _BEGIN, _ADVANCE = RATE_HZ // 5, RATE_HZ
 Before a sound, the network hears that many samples of its beginning, backwards and forwards until
 there are as many as the second number: it takes a second to adapt to the noise.
 """
+
+
+_LEVEL_FRAME = RATE_HZ // 50
+_QUIET = 0.1
+"""Share of the frames of an utterance that is taken for pauses."""
+
+
+def signal_to_noise_db(sound: bytes) -> float:
+    """
+    Estimate the signal-to-noise ratio of an utterance.
+
+    Parameters
+    ----------
+    sound
+        Samples in S16LE, 16 kHz, mono, with short pauses before and after the speech.
+
+    Returns
+    -------
+    float
+        The ratio (dB) of the mean power to that of the quietest tenth of the utterance.
+
+    """
+    samples = np.frombuffer(sound[: len(sound) - len(sound) % 2], '<i2').astype(np.float64)
+    frames = samples[: samples.size - samples.size % _LEVEL_FRAME].reshape(-1, _LEVEL_FRAME)
+    if not frames.size:
+        return 0.0
+    powers = np.sort((frames**2).mean(axis=1)) + 1.0
+    quiet = powers[: max(1, round(_QUIET * powers.size))].mean()
+    return float(10.0 * np.log10(powers.mean() / quiet))
 
 
 class NoiseSuppressionError(UserError):

@@ -10,7 +10,7 @@ from humanoid_common.parameters import parameter
 __all__ = ['THRESHOLD', 'RecognizerParameters']
 
 POCKETSPHINX, WHISPER, WHISPER_CPP, OPENAI = 'pocketsphinx', 'whisper', 'whisper_cpp', 'openai'
-THRESHOLD = -3.2
+THRESHOLD = -1.0
 """The default minimum log-likelihood ratio per frame of a command."""
 
 
@@ -57,7 +57,7 @@ class RecognizerParameters:
     )
     noise_suppression: bool = parameter(
         True,
-        'Whether pocketsphinx decodes what fits no command well again without steady noise.',
+        'Whether pocketsphinx removes steady noise before it seeks commands in a noisy utterance.',
         read_only=True,
     )
     vad_mode: int = parameter(
