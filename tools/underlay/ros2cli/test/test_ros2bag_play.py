@@ -217,12 +217,12 @@ def test_services_control_the_player(ear: Ear, start_ros2: Start, tmp_path: Path
     assert ear.call('burst', Burst).actually_burst == 0
     ear.call('pause', Pause)
     assert ear.call('seek', Seek, time=_stamp(980 * MS)).success
-    assert ear.call('burst', Burst).actually_burst == 2
+    assert ear.call('burst', Burst, num_messages=1).actually_burst == 1
     assert ear.call('seek', Seek, time=_stamp(0)).success
     ear.client('stop', Stop).call_async(Stop.Request())
     errors = ear.spin_with(process)
-    assert ear.texts('/ticks') == ['0', '1', '2', '3', '50', '98', '99']
-    assert 'Played 7 messages.' in errors
+    assert ear.texts('/ticks') == ['0', '1', '2', '3', '50', '98']
+    assert 'Played 6 messages.' in errors
 
 
 def _stamp(time_ns: int) -> Time:

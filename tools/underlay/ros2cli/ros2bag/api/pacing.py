@@ -28,6 +28,8 @@ class Pacing:
         Recorded seconds per second; may be infinite.
     now_ns
         A monotonic clock, in ns.
+    delay_ns
+        How much later than now the recorded time is reached, in ns of wall time.
 
     Attributes
     ----------
@@ -37,12 +39,16 @@ class Pacing:
     """
 
     def __init__(
-        self, recorded_ns: int, rate: float, now_ns: Callable[[], int] = time.monotonic_ns
+        self,
+        recorded_ns: int,
+        rate: float,
+        now_ns: Callable[[], int] = time.monotonic_ns,
+        delay_ns: int = 0,
     ) -> None:
         self._now_ns = now_ns
         self._rate = rate
         self._anchor_recorded_ns = recorded_ns
-        self._anchor_ns = now_ns()
+        self._anchor_ns = now_ns() + delay_ns
         self._is_held = False
         self.changes = 0
 

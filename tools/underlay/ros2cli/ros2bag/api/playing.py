@@ -70,7 +70,7 @@ def play(args: argparse.Namespace) -> None:
         switch = PauseSwitch(args.start_paused, node.get_logger().info)
         start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
         head = _head(reader, outlets.topics, start_ns, args)
-        pacing = Pacing(start_ns - int(args.delay * NS_PER_S), 1.0)
+        pacing = Pacing(start_ns, args.rate, delay_ns=int(args.delay * NS_PER_S))
         player = Player(node, outlets, clock, switch, keyboard, head, pacing)
         offer_pause_services(node, switch)
         offer_player_services(node, player, reader.metadata.span)
@@ -147,7 +147,6 @@ def _play_all(
     player: Player, reader: Bags, start_ns: int, node: Any, args: argparse.Namespace
 ) -> None:
     player.rest_until(start_ns)
-    player.pacing.set_rate(args.rate)
     while player.play():
         if not player.count:
             raise BagError(f"'{reader.path}' has no messages in this selection")
