@@ -79,10 +79,12 @@ def test_states() -> None:
         'stop': 'inactive',
         'joint_trajectory': 'active',
         'joint_commands': 'active',
+        'joint_state_broadcaster': 'active',
     }
     robot.control.manager.switch('hold')
     robot.tick()
-    assert [name for name, state in robot.states().items() if state == 'active'] == ['hold']
+    active = [name for name, state in robot.states().items() if state == 'active']
+    assert active == ['hold', 'joint_state_broadcaster']
     robot.control.manager.switch('follow')
     robot.control.hold_still(True)
     robot.tick()
@@ -135,6 +137,7 @@ def test_restart() -> None:
         ([LEFT], [], "'left_arm_controller' is already active."),
         (['hold'], [], "Set the parameter 'mode' of the node"),
         ([], ['joint_commands'], 'is always active and listens to its topic'),
+        ([], ['joint_state_broadcaster'], 'the robot publishes joint_states'),
     ],
 )
 def test_strict(activate: list[str], deactivate: list[str], sentence: str) -> None:
@@ -208,6 +211,10 @@ def test_services(ros: RosSandbox) -> None:
         for quantity in ('position', 'velocity', 'effort')
     ]
     assert len(by_name['walking'].claimed_interfaces) == 3 * 23
+    broadcaster = by_name['joint_state_broadcaster']
+    assert broadcaster.type == 'joint_state_broadcaster/JointStateBroadcaster'
+    assert len(broadcaster.required_state_interfaces) == 3 * 23
+    assert not broadcaster.required_command_interfaces and not broadcaster.claimed_interfaces
     types = world.ask(ListControllerTypes, 'controller_manager/list_controller_types')
     assert {each.type for each in controllers} == set(types.types)
     assert set(types.base_classes) == {'controller_interface::ControllerInterface'}

@@ -43,6 +43,9 @@ SENSORS = {
 """State interfaces that the controllers read besides those of the joints, by link."""
 BASE_CLASS = 'controller_interface::ControllerInterface'
 VALUE = 'double'
+BROADCASTER = 'joint_state_broadcaster'
+BROADCASTER_CLASS = f'{BROADCASTER}/JointStateBroadcaster'
+"""What publishes `joint_states` in ros2_control: here the node, as long as it runs."""
 ACTIVE, INACTIVE = 'active', 'inactive'
 QUANTITIES = ('position', 'velocity', 'effort')
 """Command and state interfaces of a joint."""
@@ -177,15 +180,14 @@ class ControllerServices:
 
     def _state(self, controller: ControllerInfo) -> ControllerState:
         """Build the ControllerState message of a controller."""
-        required = interfaces_of(controller.required)
         return ControllerState(
             name=controller.name,
             state=controller.state,
             type=controller.kind,
             update_rate=self._rate_hz,
             claimed_interfaces=interfaces_of(controller.claimed),
-            required_command_interfaces=required,
-            required_state_interfaces=required,
+            required_command_interfaces=interfaces_of(controller.required),
+            required_state_interfaces=interfaces_of(controller.read),
         )
 
     def _commands(self) -> list[HardwareInterface]:
@@ -224,13 +226,14 @@ class Strictness(IntEnum):
 
 @dataclass(frozen=True)
 class ControllerInfo:
-    """A controller, the joints that it currently claims, and those that it requires."""
+    """A controller, with the joints that it claims now, that it requires, and that it reads."""
 
     name: str
     kind: str
     is_active: bool
     claimed: tuple[str, ...]
     required: tuple[str, ...]
+    read: tuple[str, ...]
 
     @property
     def state(self) -> str:
@@ -270,8 +273,8 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
     Returns
     -------
     list of ControllerInfo
-        First those that accept goals, then the modes, of which one is active, and then those that
-        move joints as commanded on a topic.
+        First those that accept goals, then the modes, of which one is active, then those that move
+        joints as commanded on a topic, and last the one that publishes the states of all joints.
 
     """
     manager, claims = control.manager, control.manager.claims
@@ -285,11 +288,19 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
             controller.is_active and claims.is_claimable(controller.indices),
             claims.joints_of(name),
             controller.own,
+            controller.own,
         )
         for name, controller in control.goals.by_name.items()
     ]
     modes = [
-        ControllerInfo(name, kind, name == manager.mode, claims.joints_of(name), manager.joints)
+        ControllerInfo(
+            name,
+            kind,
+            name == manager.mode,
+            claims.joints_of(name),
+            manager.joints,
+            manager.joints,
+        )
         for name, kind in manager.mode_types.items()
     ]
     others = [
@@ -299,11 +310,13 @@ def controllers_of(control: RobotControl) -> list[ControllerInfo]:
             control.must_hold if claimant is control.still else claimable,
             claims.joints_of(claimant.name),
             (),
+            (),
         )
         for claimant in claims.claimants
         if not isinstance(claimant, GoalController)
     ]
-    return limbs + modes + others
+    broadcaster = ControllerInfo(BROADCASTER, BROADCASTER_CLASS, True, (), (), manager.joints)
+    return [*limbs, *modes, *others, broadcaster]
 
 
 def switch(
@@ -386,6 +399,8 @@ def _not_switched(control: RobotControl, name: str) -> str:
             'robot.'
         )
     known = [each.name for each in controllers_of(control)]
+    if name == BROADCASTER:
+        return f"'{name}' is always active: the robot publishes joint_states as long as it runs."
     if name in known:
         return f"'{name}' is always active and listens to its topic."
     advice = did_you_mean(name, known) or f'The controllers are: {", ".join(known)}.'

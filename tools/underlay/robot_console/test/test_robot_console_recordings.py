@@ -14,7 +14,6 @@ import pytest
 from recorded_samples import find_definition, LATCHED, MS, S, START_NS, text, topic, write_bag
 from robot_console.recordings.bags import about, Bag, BagTopic, commands_among, Shelf, topics_table
 from robot_console.recordings.child import Child, last_sentence
-from robot_console.recordings.programs.remember import MessageMemory
 from robot_console.recordings.programs.remember import write_bag as write_kept
 from robot_console.recordings.record_folder import bag_folder, regex_of_robot, topics_in
 from robot_console.recordings.widgets import (
@@ -25,6 +24,7 @@ from robot_console.recordings.widgets import (
 )
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.bag_writer import WriterOptions
+from ros2bag.storage.snapshot import MessageMemory
 
 NOW = datetime(2026, 11, 21, 19, 5, 12)
 

@@ -87,7 +87,7 @@ def test_missing_file_of_a_bag_is_named(tmp_path: Path, ros2_here: Ros2) -> None
 
 def test_list(ros2_here: Ros2) -> None:
     """The formats are listed."""
-    assert ros2_here('bag', 'list', 'storage').stdout == 'mcap\n'
+    assert ros2_here('bag', 'list', 'storage').stdout == 'mcap\nsqlite3\n'
     assert ros2_here('bag', 'list', 'compressor').stdout == 'lz4\nzstd\n'
 
 
@@ -111,7 +111,7 @@ def test_list(ros2_here: Ros2) -> None:
         ),
         (['record', '-a', '-f', 'json'], 2, "invalid choice: 'json'"),
         (['record', '-a', '--storage-config-file', '/nope'], 1, "'/nope' cannot be read"),
-        (['play', '-i', 'x', 'sqlite3'], 1, 'rosbags-convert --src x'),
+        (['play', '-i', 'x', 'rosbag_v2'], 1, 'rosbags-convert --src x'),
         (['play', 'x', '-i', 'y'], 1, 'Name all bags with -i, or one without'),
         (['play', 'x', '--clock', '--clock-topics-all'], 2, 'not allowed with argument --clock'),
         (['convert', '-o', 'x'], 1, 'Name the bags to read: with -i for each'),

@@ -260,10 +260,13 @@ def test_definition_of_unknown_type_is_empty(tmp_path: Path) -> None:
     ('change', 'error'),
     [
         (
-            ('storage_identifier: mcap', 'storage_identifier: sqlite3'),
-            "'sqlite3'.*rosbags-convert",
+            ('storage_identifier: mcap', 'storage_identifier: other'),
+            "'other'.*rosbags-convert",
         ),
-        (("compression_mode: ''", 'compression_mode: FILE'), 'compressed.*rosbags-convert'),
+        (
+            ("compression_mode: ''", 'compression_mode: FILE\n  compression_format: lz4'),
+            'compressed.*rosbags-convert',
+        ),
         (('version: 9', 'version: 10'), 'has version 10'),
     ],
 )

@@ -31,6 +31,7 @@ __all__ = [
     'ReadOrder',
     'ReadOrderSortBy',
     'Reindexer',
+    'SequentialCompressionReader',
     'SequentialReader',
     'SequentialWriter',
     'StorageFilter',
@@ -43,12 +44,13 @@ __all__ = [
     'get_registered_writers',
 ]
 
+SequentialCompressionReader = SequentialReader  # which reads compressed bags as well
+
 _INSTEAD = {
     'Player': 'start `ros2 bag play` as a process',
     'PlayOptions': 'start `ros2 bag play` as a process',
     'Recorder': 'start `ros2 bag record` as a process, or write messages with SequentialWriter',
     'RecordOptions': 'start `ros2 bag record` as a process',
-    'SequentialCompressionReader': 'SequentialReader reads compressed chunks of MCAP files',
     'SequentialCompressionWriter': "use SequentialWriter with storage_preset_profile='zstd_fast'",
     'bag_rewrite': 'start `ros2 bag convert` as a process',
 }

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from ros2bag.storage import BagError
+from ros2bag.storage.bag_reader import READABLE
 from rosbag2_py._storage import ConverterOptions, StorageOptions
 
 __all__ = [
@@ -14,17 +15,17 @@ __all__ = [
     'get_registered_writers',
 ]
 
-STORAGE, SERIALIZATION = 'mcap', 'cdr'
+WRITTEN, SERIALIZATION = 'mcap', 'cdr'
 
 
 def get_registered_readers() -> set[str]:
     """Return the formats of files that can be read."""
-    return {STORAGE}
+    return {*READABLE}
 
 
 def get_registered_writers() -> set[str]:
     """Return the formats of files that can be written."""
-    return {STORAGE}
+    return {WRITTEN}
 
 
 def get_registered_compressors() -> set[str]:
@@ -37,7 +38,9 @@ def get_registered_serializers() -> set[str]:
     return {SERIALIZATION}
 
 
-def check_formats(storage: StorageOptions, converter: ConverterOptions | None) -> None:
+def check_formats(
+    storage: StorageOptions, converter: ConverterOptions | None, known: set[str]
+) -> None:
     """
     Check that a bag has formats that are supported.
 
@@ -45,6 +48,8 @@ def check_formats(storage: StorageOptions, converter: ConverterOptions | None) -
     ----------
     storage, converter
         The options of a reader or writer.
+    known
+        The formats of files that it can read or write.
 
     Raises
     ------
@@ -52,11 +57,11 @@ def check_formats(storage: StorageOptions, converter: ConverterOptions | None) -
         A format is not supported; the message says which one is.
 
     """
-    if storage.storage_id not in ('', STORAGE):
+    if storage.storage_id not in ('', *known):
         raise BagError(
-            f"Bags in the format '{storage.storage_id}' are not supported, only '{STORAGE}'. "
-            'Existing ones are converted with: rosbags-convert --src OLD --dst NEW '
-            '--dst-storage mcap'
+            f"Bags in the format '{storage.storage_id}' are not supported here, only in "
+            f'{" or ".join(sorted(known))}. Existing ones are converted with: '
+            'rosbags-convert --src OLD --dst NEW --dst-storage mcap'
         )
     given = converter or ConverterOptions()
     for name in (given.input_serialization_format, given.output_serialization_format):

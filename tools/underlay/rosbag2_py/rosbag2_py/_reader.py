@@ -9,7 +9,7 @@ import re
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.latched import RecordedMessage
-from rosbag2_py._formats import check_formats
+from rosbag2_py._formats import check_formats, get_registered_readers
 from rosbag2_py._storage import (
     bag_metadata,
     BagMetadata,
@@ -45,7 +45,7 @@ class Info:
             There is no bag, or its metadata are malformed.
 
         """
-        check_formats(StorageOptions(uri, storage_id), None)
+        check_formats(StorageOptions(uri, storage_id), None, get_registered_readers())
         reader = BagReader(uri)
         return bag_metadata(reader.metadata, reader.size_bytes)
 
@@ -81,7 +81,7 @@ class SequentialReader:
             There is no bag, it is damaged, or its format is not supported.
 
         """
-        check_formats(storage_options, converter_options)
+        check_formats(storage_options, converter_options, get_registered_readers())
         reader = BagReader(storage_options.uri)
         reader.check()
         self._reader, self._options = reader, storage_options

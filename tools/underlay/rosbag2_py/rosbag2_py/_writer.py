@@ -16,7 +16,7 @@ from ros2bag.storage.latched import RecordedMessage
 from ros2bag.storage.metadata import Topic
 from ros2bag.storage.offered_qos import OfferedQos
 from ros2bag.storage.recovery import write_metadata
-from rosbag2_py._formats import check_formats
+from rosbag2_py._formats import check_formats, get_registered_writers
 from rosbag2_py._storage import ConverterOptions, StorageOptions, TopicMetadata
 
 __all__ = ['Reindexer', 'SequentialWriter']
@@ -62,7 +62,7 @@ class SequentialWriter:
             The folder exists already, cannot be written, or an option is not supported.
 
         """
-        check_formats(storage_options, converter_options)
+        check_formats(storage_options, converter_options, get_registered_writers())
         profile = storage_options.storage_preset_profile
         if profile not in _COMPRESSIONS:
             known = ', '.join(filter(None, _COMPRESSIONS))
@@ -171,7 +171,7 @@ class Reindexer:
             A file is damaged or still being written.
 
         """
-        check_formats(storage_options, None)
+        check_formats(storage_options, None, get_registered_writers())
         write_metadata(storage_options.uri)
 
 

@@ -94,13 +94,16 @@ def add_input_argument(parser: argparse.ArgumentParser) -> None:
         action='append',
         default=[],
         metavar=('BAG', 'STORAGE'),
-        help='one of several bags, which are merged by time; the storage can only be mcap',
+        help='one of several bags, which are merged by time; the storage is mcap or sqlite3',
     )
 
 
 def _add_storage_argument(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        '-s', '--storage', choices=['mcap'], default='mcap', help='format of the files'
+        '-s',
+        '--storage',
+        choices=['mcap', 'sqlite3'],
+        help='format of the files, which need not be named',
     )
 
 
@@ -116,7 +119,7 @@ def bag_paths(args: argparse.Namespace) -> list[str]:
     Raises
     ------
     BagError
-        There is none, there are both kinds, or a storage is not MCAP.
+        There is none, there are both kinds, or a storage cannot be read.
 
     """
     inputs: list[list[str]] = getattr(args, 'input', [])
@@ -126,10 +129,10 @@ def bag_paths(args: argparse.Namespace) -> list[str]:
     if path is not None and inputs:
         raise BagError(f"Name all bags with -i, or one without: '{path}' is a second way")
     for bag, *storage in inputs:
-        if storage not in ([], ['mcap']):
+        if storage not in ([], ['mcap'], ['sqlite3']):
             raise BagError(
-                f"The storage '{' '.join(storage)}' of '{bag}' is not supported, only mcap is. "
-                f'Convert it first: rosbags-convert --src {bag} --dst {bag}_mcap '
+                f"The storage '{' '.join(storage)}' of '{bag}' is not supported, only mcap and "
+                f'sqlite3 are. Convert it first: rosbags-convert --src {bag} --dst {bag}_mcap '
                 '--dst-storage mcap. For several bags, repeat -i'
             )
     return [words[0] for words in inputs] or [str(path)]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """
-Recordings on disk: folders of MCAP files in the layout of rosbag2, without ROS.
+Recordings on disk: folders of files in the layout of rosbag2, without ROS.
+
+They are written in MCAP, and read in MCAP or SQLite.
 
 Nothing here imports rclpy or messages. Times are in nanoseconds since the epoch.
 """

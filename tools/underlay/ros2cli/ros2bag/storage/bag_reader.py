@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 import os
 import struct
 from typing import TYPE_CHECKING
@@ -30,9 +30,14 @@ if TYPE_CHECKING:
     from mcap.records import Channel, Statistics
     from mcap.summary import Summary
     from ros2bag.storage.damage import BoundedFile
+    from ros2bag.storage.sqlite_file import SqliteFile
 
-__all__ = ['BagReader', 'describe_file', 'topic_of']
+__all__ = ['READABLE', 'BagReader', 'describe_file', 'topic_of']
 
+READABLE = ('mcap', 'sqlite3')
+"""The formats of files that are read, by their identifiers in `metadata.yaml`."""
+WHOLE_FILES, EACH_MESSAGE = 'file', 'message'
+"""The modes in which recorders compress, besides the chunks of MCAP files."""
 FOOTER = struct.Struct('<BQQQI')
 MAGIC_BYTES = 8
 CRC_BYTES = 4
@@ -40,7 +45,7 @@ CRC_BYTES = 4
 
 class BagReader:
     """
-    Reader of a bag: its folder, or a single MCAP file.
+    Reader of a bag, in MCAP or SQLite: its folder, or a single file.
 
     Parameters
     ----------
@@ -84,11 +89,19 @@ class BagReader:
 
     def check(self) -> None:
         """Raise BagError unless messages can be read from all files."""
-        metadata = self.metadata
-        if metadata.storage_identifier != 'mcap' or metadata.compression_mode not in ('', 'none'):
-            raise BagError(_foreign_text(self.path, metadata))
+        if not _is_readable(self.metadata):
+            raise BagError(_foreign_text(self.path, self.metadata))
         for path in self._paths():
-            describe_file(path)
+            if self.metadata.compression_mode == WHOLE_FILES:
+                from ros2bag.storage.compressed import check_magic
+                from ros2bag.storage.damage import damage_told
+
+                with damage_told(path):
+                    check_magic(path)
+            elif (database := _database(path)) is not None:
+                database.check()
+            else:
+                describe_file(path)
 
     def messages(
         self, topics: Collection[str] | None = None, start_ns: int = 0
@@ -114,21 +127,14 @@ class BagReader:
             A file is missing or unreadable; BrokenFile if it is truncated or damaged.
 
         """
-        from mcap.reader import SeekingReader
-        from ros2bag.storage.damage import BoundedFile, damage_told, limit_chunks
-
-        limit_chunks()
         for path in self._paths():
-            with damage_told(path), BoundedFile(path) as stream:
-                reader = SeekingReader(stream, validate_crcs=True)
-                for _, channel, message in reader.iter_messages(topics, starting_at=start_ns):
-                    yield RecordedMessage(
-                        channel.topic,
-                        message.data,
-                        message.log_time,
-                        message.publish_time,
-                        message.sequence,
-                    )
+            with self._plain(path) as plain:
+                messages = _messages_of(plain, topics, start_ns)
+                if self.metadata.compression_mode == EACH_MESSAGE:
+                    from ros2bag.storage.compressed import with_plain_data
+
+                    messages = with_plain_data(messages)
+                yield from messages
 
     def definitions(self) -> dict[str, Definition]:
         """
@@ -140,19 +146,81 @@ class BagReader:
             A file is missing or unreadable; BrokenFile if it is truncated or damaged.
 
         """
-        from mcap.reader import SeekingReader
-        from ros2bag.storage.damage import BoundedFile, damage_told
-
-        found = {}
+        found: dict[str, Definition] = {}
         for path in self._paths():
-            with damage_told(path), BoundedFile(path) as stream:
-                summary = SeekingReader(stream).get_summary()
-                for schema in summary.schemas.values() if summary else ():
-                    found[schema.name] = Definition(schema.encoding, schema.data.decode())
+            with self._plain(path) as plain:
+                found.update(_definitions_of(plain))
         return found
 
     def _paths(self) -> list[str]:
         return [os.path.join(self._folder, file.path) for file in self.metadata.files]
+
+    @contextmanager
+    def _plain(self, path: str) -> Iterator[str]:
+        """Give a file that is not compressed as a whole, for the length of a `with` block."""
+        if self.metadata.compression_mode != WHOLE_FILES:
+            yield path
+            return
+        from ros2bag.storage.compressed import decompressed
+        from ros2bag.storage.damage import damage_told
+
+        with damage_told(path), decompressed(path) as plain:
+            yield plain
+
+
+def _messages_of(
+    path: str, topics: Collection[str] | None, start_ns: int
+) -> Iterator[RecordedMessage]:
+    """Read the messages of a file."""
+    if (database := _database(path)) is not None:
+        yield from database.messages(topics, start_ns)
+        return
+    from mcap.reader import SeekingReader
+    from ros2bag.storage.damage import BoundedFile, damage_told, limit_chunks
+
+    limit_chunks()
+    with damage_told(path), BoundedFile(path) as stream:
+        reader = SeekingReader(stream, validate_crcs=True)
+        for _, channel, message in reader.iter_messages(topics, starting_at=start_ns):
+            yield RecordedMessage(
+                channel.topic,
+                message.data,
+                message.log_time,
+                message.publish_time,
+                message.sequence,
+            )
+
+
+def _definitions_of(path: str) -> dict[str, Definition]:
+    """Return the definitions in a file."""
+    if (database := _database(path)) is not None:
+        return database.definitions()
+    from mcap.reader import SeekingReader
+    from ros2bag.storage.damage import BoundedFile, damage_told
+
+    with damage_told(path), BoundedFile(path) as stream:
+        summary = SeekingReader(stream).get_summary()
+        schemas = summary.schemas.values() if summary else ()
+        return {each.name: Definition(each.encoding, each.data.decode()) for each in schemas}
+
+
+def _is_readable(metadata: BagMetadata) -> bool:
+    """Check whether the files of a bag and their compression are known here."""
+    is_plain = metadata.compression_mode in ('', 'none')
+    is_known = metadata.compression_mode in (WHOLE_FILES, EACH_MESSAGE)
+    is_decompressed = is_known and metadata.compression_format == 'zstd'
+    return metadata.storage_identifier in READABLE and (is_plain or is_decompressed)
+
+
+def _database(path: str) -> SqliteFile | None:
+    """Return a file in SQLite; None for other files."""
+    try:
+        from ros2bag.storage.sqlite_file import is_sqlite, SqliteFile
+    except ImportError as error:
+        if not path.endswith('.db3'):
+            return None
+        raise BagError(f"'{path}' cannot be read: this Python has no module sqlite3") from error
+    return SqliteFile(path) if is_sqlite(path) else None
 
 
 def read_metadata(folder: str) -> BagMetadata:
@@ -181,7 +249,10 @@ def read_metadata(folder: str) -> BagMetadata:
 
 
 def _no_metadata_text(folder: str) -> str:
-    if any(name.endswith('.mcap') for name in os.listdir(folder)):
+    names = os.listdir(folder)
+    if any(name.endswith('.db3') for name in names):
+        return f"'{folder}' has no {FILE_NAME}. Recreate it with: ros2 bag reindex {folder}"
+    if any(name.endswith('.mcap') for name in names):
         return (
             f"'{folder}' has no {FILE_NAME}: its recording is still running or was not finished. "
             f'Recover its contents with: ros2 bag recover {folder}'
@@ -200,11 +271,12 @@ def _missing_text(path: str) -> str:
 def _foreign_text(path: str, metadata: BagMetadata) -> str:
     what = (
         f'compressed ({metadata.compression_format}, by {metadata.compression_mode})'
-        if metadata.storage_identifier == 'mcap'
+        if metadata.storage_identifier in READABLE
         else f"in the format '{metadata.storage_identifier}'"
     )
     return (
-        f"'{path}' is {what}, but only plain MCAP is supported here. Convert it first: "
+        f"'{path}' is {what}, but only MCAP and SQLite are read here, plain or compressed with "
+        'zstd. Convert it first: '
         f'rosbags-convert --src {path} --dst {path.rstrip("/")}_mcap '
         '--dst-storage mcap'
     )
@@ -212,7 +284,7 @@ def _foreign_text(path: str, metadata: BagMetadata) -> str:
 
 def describe_file(path: str) -> BagMetadata:
     """
-    Read the metadata of a single MCAP file from its index.
+    Read the metadata of a single file: of MCAP from its index, of SQLite from its tables.
 
     Parameters
     ----------
@@ -227,11 +299,13 @@ def describe_file(path: str) -> BagMetadata:
     Raises
     ------
     BagError
-        The file is missing, unreadable or not MCAP.
+        The file is missing, unreadable or not a recording.
     BrokenFile
         The file has no index, or is damaged.
 
     """
+    if (database := _database(path)) is not None:
+        return database.describe()
     from mcap.reader import SeekingReader
     from ros2bag.storage.damage import BoundedFile, damage_told
 

@@ -134,6 +134,7 @@ def merged(parts: Iterable[BagMetadata]) -> BagMetadata:
         files=tuple(file for part in parts for file in part.files),
         topics=tuple(topics[name] for name in sorted(topics)),
         ros_distro=next((part.ros_distro for part in parts if part.ros_distro), ''),
+        storage_identifier=parts[0].storage_identifier if parts else 'mcap',
     )
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 import glob
 from itertools import chain, count
@@ -20,6 +20,7 @@ from ros2bag.storage.definitions import Definition
 from ros2bag.storage.mcap_file import is_being_written, McapFile
 from ros2bag.storage.metadata import FILE_NAME, merged, metadata_to_text
 from ros2bag.storage.salvage import Content, Salvage
+from ros2bag.storage.sqlite_file import SUFFIX
 
 __all__ = ['RecoveredFile', 'recover', 'write_metadata']
 
@@ -70,7 +71,7 @@ def recover(
         The folder has no MCAP file or an invalid one, is being recorded to, or cannot be written.
 
     """
-    outcomes = [_recover_file(path, progress) for path in _paths(folder)]
+    outcomes = [_recover_file(path, progress) for path in _paths(folder, ['.mcap'])]
     write_metadata(folder)
     _remove(os.path.join(folder, RESERVE_NAME))
     return outcomes
@@ -93,10 +94,11 @@ def write_metadata(folder: str) -> int:
     Raises
     ------
     BagError
-        The folder has no MCAP file, or a file has no index, is damaged or is being recorded to.
+        The folder has no file of a recording, or a file has no index, is damaged or is being
+        recorded to.
 
     """
-    metadata = merged([describe_file(path) for path in _paths(folder)])
+    metadata = merged([describe_file(path) for path in _paths(folder, ['.mcap', SUFFIX])])
     metadata = replace(metadata, custom_data=_custom_data(folder))
     path = os.path.join(folder, FILE_NAME)
     new_path = f'{path}{NEW_SUFFIX}'
@@ -114,15 +116,17 @@ def _custom_data(folder: str) -> Mapping[str, str]:
         return {}
 
 
-def _paths(folder: str) -> list[str]:
+def _paths(folder: str, suffixes: Sequence[str]) -> list[str]:
     """Return the files in the order of their numbers; raise BagError if there is nothing to do."""
     if not os.path.isdir(folder):
         raise BagError(f"'{folder}' is not a folder: name the folder of a recording")
-    paths = glob.glob(os.path.join(glob.escape(folder), '*.mcap'))
+    start = os.path.join(glob.escape(folder), '*')
+    paths = [path for suffix in suffixes for path in glob.glob(start + suffix)]
     if not paths:
-        raise BagError(f"'{folder}' has no .mcap file: is it the folder of a recording?")
+        wanted = ' or '.join(suffixes)
+        raise BagError(f"'{folder}' has no {wanted} file: is it the folder of a recording?")
     for path in paths:
-        if is_being_written(path):
+        if not path.endswith(SUFFIX) and is_being_written(path):
             raise BagError(f"'{path}' is still being recorded: end the recording first")
     return sorted(paths, key=_numbers_in)
 

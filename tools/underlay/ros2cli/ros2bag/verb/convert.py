@@ -19,7 +19,7 @@ output_bags:
   compression_mode: file
   compression_format: zstd
 
-Bags of ROS 1 or in sqlite3:
+Bags of ROS 1:
 rosbags-convert --src OLD --dst NEW --dst-storage mcap"""
 
 

@@ -8,7 +8,10 @@ import argparse
 from ros2bag.verb import VerbExtension
 
 KNOWN = {
-    'storage': {'mcap': 'read and written, in the layout of rosbag2 (metadata.yaml version 9)'},
+    'storage': {
+        'mcap': 'read and written, in the layout of rosbag2 (metadata.yaml version 9)',
+        'sqlite3': 'only read',
+    },
     'converter': {'cdr': 'messages are kept as they are sent'},
     'compressor': {'lz4': 'chunks of MCAP files', 'zstd': 'chunks of MCAP files'},
     'decompressor': {'lz4': 'chunks of MCAP files', 'zstd': 'chunks of MCAP files'},
