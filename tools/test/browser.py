@@ -26,10 +26,10 @@ CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
 ARGUMENTS = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--no-sandbox']
 RARE_FRAMES = """
-    window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 190);
+    window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 90);
     window.cancelAnimationFrame = clearTimeout;
 """
-"""Lets a page draw five frames a second: without a graphics card, drawing needs processors."""
+"""Lets a page draw ten frames a second: without a graphics card, drawing needs processors."""
 SIZE = {'width': 900, 'height': 620}
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'

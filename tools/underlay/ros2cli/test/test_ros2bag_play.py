@@ -36,7 +36,7 @@ Ros2 = Callable[..., CompletedProcess[str]]
 
 TIMEOUT_S = 100.0
 ATTEMPTS = 5
-PERIOD_MS = 10.0
+PERIOD_MS = 20.0
 
 
 class Ear:
@@ -128,15 +128,15 @@ def test_play_is_complete_and_in_order(ear: Ear, start_ros2: Start, tmp_path: Pa
 @pytest.mark.parametrize('rate', [1.0, 2.0])
 def test_times_between_messages(ear: Ear, start_ros2: Start, tmp_path: Path, rate: float) -> None:
     """The mean time between messages is right, however late a busy machine plays each of them."""
-    write_bag(tmp_path / 'bag', count=300, period_ns=int(PERIOD_MS * MS))
+    write_bag(tmp_path / 'bag', count=100, period_ns=int(PERIOD_MS * MS))
     ear.listen('/ticks')
     means_ms = []
     for _ in range(ATTEMPTS):
         ear.heard.clear()
         ear.spin_with(start_ros2('bag', 'play', str(tmp_path / 'bag'), '-r', str(rate)))
         times_s = ear.times_s('/ticks')
-        assert len(times_s) == 300
-        means_ms.append((times_s[-1] - times_s[0]) / 299 * 1e3)
+        assert len(times_s) == 100
+        means_ms.append((times_s[-1] - times_s[0]) / 99 * 1e3)
         if means_ms[-1] == pytest.approx(PERIOD_MS / rate, rel=0.1):
             return
     pytest.fail(f'mean times of {means_ms} ms')

@@ -6,16 +6,25 @@ from pathlib import Path
 import shutil
 import sqlite3
 from subprocess import CompletedProcess
+from typing import Any
 
 from bag_samples import MS, START_NS, STORE, STRING, string
 import pytest
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_reader import BagReader
 from ros2bag.storage.damage import BrokenFile
-from rosbags.interfaces import Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime
+from rosbags.interfaces import (
+    Qos,
+    QosDurability,
+    QosHistory,
+    QosLiveliness,
+    QosReliability,
+    QosTime,
+)
 from rosbags.rosbag2 import StoragePlugin, Writer
 
 Ros2 = Callable[..., CompletedProcess[str]]
+Start = Callable[..., Any]
 
 COUNT = 20
 
@@ -89,12 +98,13 @@ def test_reindex(ros2_here: Ros2, bag: Path) -> None:
     assert after.storage_identifier == 'sqlite3'
 
 
-def test_commands(ros2_here: Ros2, bag: Path, tmp_path: Path) -> None:
+def test_commands(ros2_here: Ros2, start_ros2: Start, bag: Path, tmp_path: Path) -> None:
     """`info` lists it, `play` publishes all of it, and `convert` writes it as MCAP."""
     info = ros2_here('bag', 'info', str(bag)).stdout
     assert 'Storage id:        sqlite3\n' in info and f'Messages:          {COUNT}\n' in info
-    played = ros2_here('bag', 'burst', '-i', str(bag), 'sqlite3')
-    assert played.returncode == 0 and f'Played {COUNT} messages.' in played.stderr
+    player = start_ros2('bag', 'burst', '-i', str(bag), 'sqlite3')
+    _, errors = player.communicate(timeout=100)
+    assert player.returncode == 0 and f'Played {COUNT} messages.' in errors
     options = tmp_path / 'out.yaml'
     new = tmp_path / 'new'
     options.write_text(f'output_bags:\n- uri: {new}\n  all_topics: true\n')
@@ -118,7 +128,9 @@ def test_oldest_tables(tmp_path: Path) -> None:
         database.execute("INSERT INTO topics VALUES (1, '/a', ?, 'cdr')", (STRING,))
         for number in (2, 0, 1):
             each = string('/a', f'{number}', number * MS)
-            database.execute('INSERT INTO messages VALUES (NULL, 1, ?, ?)', (each.log_ns, each.data))
+            database.execute(
+                'INSERT INTO messages VALUES (NULL, 1, ?, ?)', (each.log_ns, each.data)
+            )
     database.close()
     reader = BagReader(str(path))
     assert _numbers(reader) == ['0', '1', '2']

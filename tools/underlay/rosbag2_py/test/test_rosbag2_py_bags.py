@@ -145,7 +145,9 @@ def test_what_is_not_possible_is_said(bag: str, tmp_path: Path) -> None:
         reader.has_next()
     with pytest.raises(RuntimeError, match='supported here, only in mcap or sqlite3. Existing'):
         reader.open(rosbag2_py.StorageOptions(bag, 'rosbag_v2'))
-    with pytest.raises(RuntimeError, match="format 'sqlite3' are not supported here, only in mcap"):
+    with pytest.raises(
+        RuntimeError, match="format 'sqlite3' are not supported here, only in mcap"
+    ):
         writer.open(rosbag2_py.StorageOptions(str(tmp_path / 'new'), 'sqlite3'))
     with pytest.raises(RuntimeError, match='does not exist'):
         reader.open_uri(str(tmp_path / 'nothing'))

@@ -28,8 +28,6 @@ class Pacing:
         Recorded seconds per second; may be infinite.
     now_ns
         A monotonic clock, in ns.
-    delay_ns
-        How much later than now the recorded time is reached, in ns of wall time.
 
     Attributes
     ----------
@@ -39,16 +37,12 @@ class Pacing:
     """
 
     def __init__(
-        self,
-        recorded_ns: int,
-        rate: float,
-        now_ns: Callable[[], int] = time.monotonic_ns,
-        delay_ns: int = 0,
+        self, recorded_ns: int, rate: float, now_ns: Callable[[], int] = time.monotonic_ns
     ) -> None:
         self._now_ns = now_ns
         self._rate = rate
         self._anchor_recorded_ns = recorded_ns
-        self._anchor_ns = now_ns() + delay_ns
+        self._anchor_ns = now_ns()
         self._is_held = False
         self.changes = 0
 
@@ -82,6 +76,18 @@ class Pacing:
         """
         due_ns = self._anchor_ns + int((recorded_ns - self._anchor_recorded_ns) / self._rate)
         return due_ns - self._now_ns()
+
+    def start_in(self, delay_ns: int) -> None:
+        """
+        Reach the recorded time that was given at first later than now.
+
+        Parameters
+        ----------
+        delay_ns
+            How much later, in ns of wall time.
+
+        """
+        self._anchor_ns = self._now_ns() + delay_ns
 
     def hold(self) -> None:
         """Pause the recorded time."""

@@ -70,7 +70,7 @@ def play(args: argparse.Namespace) -> None:
         switch = PauseSwitch(args.start_paused, node.get_logger().info)
         start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
         head = _head(reader, outlets.topics, start_ns, args)
-        pacing = Pacing(start_ns, args.rate, delay_ns=int(args.delay * NS_PER_S))
+        pacing = Pacing(start_ns, args.rate)
         player = Player(node, outlets, clock, switch, keyboard, head, pacing)
         offer_pause_services(node, switch)
         offer_player_services(node, player, reader.metadata.span)
@@ -146,6 +146,7 @@ def _head(reader: Bags, topics: list[str], start_ns: int, args: argparse.Namespa
 def _play_all(
     player: Player, reader: Bags, start_ns: int, node: Any, args: argparse.Namespace
 ) -> None:
+    player.pacing.start_in(int(args.delay * NS_PER_S))
     player.rest_until(start_ns)
     while player.play():
         if not player.count:

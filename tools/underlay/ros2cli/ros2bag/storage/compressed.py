@@ -110,7 +110,7 @@ def with_plain_data(messages: Iterator[RecordedMessage]) -> Iterator[RecordedMes
             data = decompressor.decompress(message.data)
         except zstandard.ZstdError as error:
             raise BrokenFile(
-                f"A message on '{message.topic}' is not compressed with {FORMAT}, as metadata.yaml "
-                f'says ({error})'
+                f"A message on '{message.topic}' is not compressed with {FORMAT}, as "
+                f'metadata.yaml says ({error})'
             ) from error
         yield message._replace(data=data)

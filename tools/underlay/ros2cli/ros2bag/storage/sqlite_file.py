@@ -162,18 +162,20 @@ class SqliteFile:
 
     def _topics(self, database: sqlite3.Connection) -> list[tuple[int, Topic]]:
         """Return the topics with their numbers; older files lack QoS and type hashes."""
-        columns = _columns(database, 'topics')
-        qos, type_hash = (
-            name if name in columns else "''"
-            for name in ('offered_qos_profiles', 'type_description_hash')
-        )
-        rows = database.execute(
-            f'SELECT id, name, type, serialization_format, {qos}, {type_hash} FROM topics'
-        )
-        return [
-            (number, Topic(name, kind, hash_text or '', qos_from_text(qos_text or ''), form))
-            for number, name, kind, form, qos_text, hash_text in rows
-        ]
+        cursor = database.execute('SELECT * FROM topics')
+        names = [column[0] for column in cursor.description]
+        found = []
+        for row in cursor:
+            values = dict(zip(names, row))
+            topic = Topic(
+                values['name'],
+                values['type'],
+                values.get('type_description_hash') or '',
+                qos_from_text(values.get('offered_qos_profiles') or ''),
+                values['serialization_format'],
+            )
+            found.append((values['id'], topic))
+        return found
 
     @contextmanager
     def _opened(self) -> Iterator[sqlite3.Connection]:
@@ -192,7 +194,7 @@ class SqliteFile:
                 yield database
         except sqlite3.OperationalError as error:
             raise BagError(f"'{path}' cannot be read: {error}") from error
-        except (sqlite3.DatabaseError, TypeError, ValueError) as error:
+        except (sqlite3.DatabaseError, KeyError, TypeError, ValueError) as error:
             raise BrokenFile(
                 f"'{path}' is damaged ({error}). The program sqlite3 may save what is left: "
                 f"sqlite3 {path} '.recover' | sqlite3 NEW{SUFFIX}"

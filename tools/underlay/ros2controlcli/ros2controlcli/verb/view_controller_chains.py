@@ -13,7 +13,7 @@ SOURCE = Path('/tmp/controller_diagram.gv')
 
 
 class ViewControllerChainsVerb(VerbExtension):
-    """Draw the controllers and their chains, into /tmp/controller_diagram.gv.pdf."""
+    """Draw the loaded controllers and their chains."""
 
     def add_arguments(self, parser: argparse.ArgumentParser, cli_name: str) -> None:
         """
