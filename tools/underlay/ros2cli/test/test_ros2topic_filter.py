@@ -29,6 +29,11 @@ JOINTS = JointState(name=['left', 'right'], position=[0.25, -0.5])
         ('all(len(n) == 4 for n in m.name)', False),
         ('m.header.stamp.sec + 7 % 4 // 2 == 1', True),
         ('m.header.frame_id', False),
+        ("m.name[0].startswith('le') and m.name[1].upper() == 'RIGHT'", True),
+        ("int('a: 12'.split(':')[1]) % 2 == 0", True),
+        ("[n for n in m.name if n.count('t') == 1] == sorted(m.name)", True),
+        ('round(sum(m.position), 1) == -0.2 and m.position.count(0.25) == 1', True),
+        ("(1 if 'up' in m.name else 2) == 2", True),
         (' True ', True),
     ],
 )
@@ -46,7 +51,9 @@ def test_filters_are_evaluated(text: str, expected: bool) -> None:
         'open("/etc/passwd")',
         'm.get_fields_and_field_types()',
         '(lambda: 1)()',
-        '[x for x in m.name]',
+        '{x: 1 for x in m.name}',
+        'm.name[0].format(m)',
+        "'a'.ljust(99999999999)",
         'len(obj=m)',
         'print',
         'm := 1',
@@ -78,6 +85,8 @@ def test_everything_else_is_refused(text: str) -> None:
         "'%99999999999d' % 1",
         '1 / 0',
         'len(1)',
+        'm.header.count(1)',
+        "int('x')",
     ],
 )
 def test_filter_that_does_not_fit_is_explained(text: str) -> None:

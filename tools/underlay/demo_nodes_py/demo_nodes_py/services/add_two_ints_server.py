@@ -35,7 +35,7 @@ class AddTwoIntsServer(Node):
         self, request: AddTwoInts.Request, response: AddTwoInts.Response
     ) -> AddTwoInts.Response:
         """
-        Compute the sum; one that has more than 64 bits wraps around, as in C++.
+        Log a request, and compute the sum.
 
         Parameters
         ----------
@@ -51,6 +51,20 @@ class AddTwoIntsServer(Node):
 
         """
         self.get_logger().info(f'Incoming request\na: {request.a} b: {request.b}')
+        return self.add(request, response)
+
+    def add(
+        self, request: AddTwoInts.Request, response: AddTwoInts.Response
+    ) -> AddTwoInts.Response:
+        """
+        Compute the sum; one that has more than 64 bits wraps around, as in C++.
+
+        Parameters
+        ----------
+        request, response
+            As for `add_two_ints_callback`.
+
+        """
         response.sum = (request.a + request.b + 2**63) % 2**64 - 2**63
         return response
 

@@ -10,11 +10,12 @@ variables of generator expressions.
 from __future__ import annotations
 
 import argparse
+from array import array
 import ast
 from collections.abc import Callable, Iterator, Mapping
 from numbers import Number
 import operator
-from typing import Any
+from typing import Any, cast
 
 Names = Mapping[str, Any]
 Part = Callable[[Names], Any]
@@ -36,10 +37,26 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     'abs': abs,
     'all': all,
     'any': any,
+    'bool': bool,
+    'float': float,
+    'int': int,
     'len': len,
+    'list': list,
     'max': max,
     'min': min,
+    'round': round,
+    'set': set,
+    'sorted': sorted,
+    'str': str,
+    'sum': sum,
+    'tuple': tuple,
 }
+METHODS = frozenset(
+    'count endswith find index isdigit lower lstrip partition rfind rpartition rsplit rstrip split '
+    'splitlines startswith strip upper'.split()
+)
+"""Of texts and sequences: they need no more memory than these."""
+SEQUENCES = str, bytes, list, tuple, array
 OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
     ast.Add: _of_numbers(operator.add),
     ast.Sub: _of_numbers(operator.sub),
@@ -183,16 +200,40 @@ def _compare(node: ast.Compare, known: set[str]) -> Part:
 
 
 def _call(node: ast.Call, known: set[str]) -> Part:
-    name = node.func.id if isinstance(node.func, ast.Name) else ''
-    if name not in FUNCTIONS or node.keywords:
+    called = node.func
+    name = called.id if isinstance(called, ast.Name) else ''
+    method = called.attr if isinstance(called, ast.Attribute) else ''
+    if node.keywords or not (name in FUNCTIONS or method in METHODS):
         raise argparse.ArgumentTypeError(
-            f'{ast.unparse(node)!r} is not a call that filters support: ' + ', '.join(FUNCTIONS)
+            f'{ast.unparse(node)!r} is not a call that filters support: '
+            f'{", ".join(FUNCTIONS)}; of texts and lists: {", ".join(sorted(METHODS))}'
         )
-    function, arguments = FUNCTIONS[name], [_compile(each, known) for each in node.args]
-    return lambda names: function(*(argument(names) for argument in arguments))
+    arguments = [_compile(each, known) for each in node.args]
+    if isinstance(called, ast.Attribute):
+        owner = _compile(called.value, known)
+        return lambda names: _method(owner(names), method)(*(each(names) for each in arguments))
+    function = FUNCTIONS[name]
+    return lambda names: function(*(each(names) for each in arguments))
 
 
-def _generator(node: ast.GeneratorExp, known: set[str]) -> Part:
+def _method(value: Any, name: str) -> Callable[..., Any]:
+    """Return a method of a text or a sequence; raise AttributeError for anything else."""
+    if not isinstance(value, SEQUENCES):
+        raise AttributeError(f'{type(value).__name__!r} object has no method {name!r}')
+    return cast(Callable[..., Any], getattr(value, name))
+
+
+def _list(node: ast.ListComp, known: set[str]) -> Part:
+    items = _generator(node, known)
+    return lambda names: list(items(names))
+
+
+def _choice(node: ast.IfExp, known: set[str]) -> Part:
+    test, then, other = (_compile(each, known) for each in (node.test, node.body, node.orelse))
+    return lambda names: (then if test(names) else other)(names)
+
+
+def _generator(node: ast.GeneratorExp | ast.ListComp, known: set[str]) -> Part:
     loop = node.generators[0]
     if len(node.generators) > 1 or not isinstance(loop.target, ast.Name) or loop.is_async:
         raise argparse.ArgumentTypeError(
@@ -227,7 +268,9 @@ COMPILERS: dict[str, Callable[[Any, set[str]], Part]] = {
     'Compare': _compare,
     'Constant': _constant,
     'GeneratorExp': _generator,
+    'IfExp': _choice,
     'List': _sequence,
+    'ListComp': _list,
     'Name': _name,
     'Slice': _slice,
     'Subscript': _subscript,
