@@ -52,8 +52,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     'tuple': tuple,
 }
 METHODS = frozenset(
-    'count endswith find index isdigit lower lstrip partition rfind rpartition rsplit rstrip split '
-    'splitlines startswith strip upper'.split()
+    'count endswith find index isdigit lower lstrip partition rfind rpartition rsplit rstrip '
+    'split splitlines startswith strip upper'.split()
 )
 """Of texts and sequences: they need no more memory than these."""
 SEQUENCES = str, bytes, list, tuple, array
