@@ -51,6 +51,7 @@ def test_poses_in_the_plane() -> None:
     ('words', 'reason'),
     [
         (['a', '1', '2'], 'There are 3 arguments instead of 7'),
+        (['', *'012345'], 'The name of the frame is empty'),
         (['world', *'012345'], "The frame cannot be 'world'"),
         (['a', 'x', *'12345'], "'x' is not a number"),
         (['a', 'nan', *'12345'], "'nan' is not a number"),

@@ -55,12 +55,14 @@ def transform_from_words(words: Sequence[str]) -> TransformStamped:
     Raises
     ------
     ValueError
-        Words are missing or no numbers, or the frame is `world` itself.
+        Words are missing or no numbers, or the frame has no name or is `world` itself.
 
     """
     if len(words) != 7:
         raise ValueError(f'There are {len(words)} arguments instead of 7.\n{USAGE}')
     child, *numbers = words
+    if not child:
+        raise ValueError(f'The name of the frame is empty.\n{USAGE}')
     if child == WORLD:
         raise ValueError(f"The frame cannot be '{WORLD}': that is its parent.\n{USAGE}")
     x, y, z, roll, pitch, yaw = (_number(word) for word in numbers)

@@ -24,6 +24,7 @@ __all__ = [
     'PauseSwitch',
     'StopSignals',
     'offer_pause_services',
+    'offer_service',
 ]
 
 SPACE, UP, DOWN, RIGHT = ' ', '\x1b[A', '\x1b[B', '\x1b[C'
@@ -81,21 +82,37 @@ def offer_pause_services(node: Any, switch: PauseSwitch) -> None:
     """
     from rosbag2_interfaces.srv import IsPaused, Pause, Resume, TogglePaused
 
-    def offer(kind: Any, name: str, act: Callable[[], None]) -> None:
-        def serve(_: Any, response: Any) -> Any:
-            act()
-            return response
-
-        node.create_service(kind, f'~/{name}', serve)
-
-    def tell(_: Any, response: Any) -> Any:
+    def tell(_: Any, response: Any) -> None:
         response.paused = switch.is_paused
+
+    offer_service(node, Pause, 'pause', lambda *_: switch.change_to(True))
+    offer_service(node, Resume, 'resume', lambda *_: switch.change_to(False))
+    offer_service(node, TogglePaused, 'toggle_paused', lambda *_: switch.toggle())
+    offer_service(node, IsPaused, 'is_paused', tell)
+
+
+def offer_service(node: Any, kind: Any, name: str, act: Callable[[Any, Any], None]) -> None:
+    """
+    Create a service in the namespace of a node.
+
+    Parameters
+    ----------
+    node
+        The node that offers it.
+    kind
+        The type of the service.
+    name
+        Its name after that of the node.
+    act
+        Called with the request and the response to fill in.
+
+    """
+
+    def serve(request: Any, response: Any) -> Any:
+        act(request, response)
         return response
 
-    offer(Pause, 'pause', lambda: switch.change_to(True))
-    offer(Resume, 'resume', lambda: switch.change_to(False))
-    offer(TogglePaused, 'toggle_paused', switch.toggle)
-    node.create_service(IsPaused, '~/is_paused', tell)
+    node.create_service(kind, f'~/{name}', serve)
 
 
 class Keyboard:

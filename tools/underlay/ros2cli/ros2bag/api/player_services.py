@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from rclpy.time import Time
+from ros2bag.api.control import offer_service
 from ros2bag.api.player import Player
 from ros2bag.storage.metadata import MessageSpan
 from rosbag2_interfaces.srv import Burst, GetRate, PlayNext, Seek, SetRate, Stop
@@ -61,16 +61,9 @@ def offer_player_services(node: Any, player: Player, span: MessageSpan) -> None:
     def stop(_: Any, response: Any) -> None:
         player.stop()
 
-    def offer(kind: Any, name: str, act: Callable[[Any, Any], None]) -> None:
-        def serve(request: Any, response: Any) -> Any:
-            act(request, response)
-            return response
-
-        node.create_service(kind, f'~/{name}', serve)
-
-    offer(GetRate, 'get_rate', get_rate)
-    offer(SetRate, 'set_rate', set_rate)
-    offer(PlayNext, 'play_next', play_next)
-    offer(Burst, 'burst', burst)
-    offer(Seek, 'seek', seek)
-    offer(Stop, 'stop', stop)
+    offer_service(node, GetRate, 'get_rate', get_rate)
+    offer_service(node, SetRate, 'set_rate', set_rate)
+    offer_service(node, PlayNext, 'play_next', play_next)
+    offer_service(node, Burst, 'burst', burst)
+    offer_service(node, Seek, 'seek', seek)
+    offer_service(node, Stop, 'stop', stop)
