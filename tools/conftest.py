@@ -8,10 +8,11 @@ of a file stay together.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 import gc
 from pathlib import Path
 import signal
+import sys
 from typing import Any
 
 from domain_coordinator import domain_id
@@ -44,6 +45,16 @@ def pytest_collection_finish() -> None:
     """
     gc.collect()
     gc.freeze()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Add to the report of a test that failed what the pages of its browser say."""
+    report = yield
+    browser = sys.modules.get('browser')
+    if report.failed and browser is not None:
+        report.sections += browser.texts_of_pages()
+    return report
 
 
 def pytest_make_parametrize_id(val: object, argname: str) -> str | None:

@@ -9,18 +9,19 @@ known about it is known here only.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 import os
 from pathlib import Path
 import re
 from typing import Any
 from urllib.parse import urlsplit
+from weakref import WeakSet
 
 from programs import wait_until
 import pytest
 
-__all__ = ['Browser', 'Tab', 'browser_started', 'chromium']
+__all__ = ['Browser', 'Tab', 'browser_started', 'chromium', 'texts_of_pages']
 
 CHROMIUM = '/usr/bin/chromium'
 # Two of these are for machines without a graphics card, one for those without user namespaces.
@@ -30,6 +31,8 @@ RARE_FRAMES = """
     window.cancelAnimationFrame = clearTimeout;
 """
 """Lets a page draw ten frames a second: without a graphics card, drawing needs processors."""
+PAGES: WeakSet[Any] = WeakSet()
+"""The pages that tests have opened."""
 SIZE = {'width': 900, 'height': 620}
 PATIENCE_S = 100.0
 PICTURES = Path(__file__).resolve().parents[2] / 'build' / 'pictures'
@@ -202,6 +205,18 @@ def _calm(opened: Callable[..., Any]) -> Callable[..., Any]:
     def open_calm(**options: Any) -> Any:
         page = opened(**options)
         page.add_init_script(RARE_FRAMES)
+        PAGES.add(page)
         return page
 
     return open_calm
+
+
+def texts_of_pages() -> list[tuple[str, str]]:
+    """Return the addresses of the pages that are open, and what each says."""
+    from playwright.sync_api import Error
+
+    texts = []
+    for page in (page for each in PAGES for page in getattr(each, 'pages', [each])):
+        with suppress(Error):  # it has just closed, or does not answer
+            texts.append((page.url, page.inner_text('body', timeout=5000.0)))
+    return texts
