@@ -2,7 +2,8 @@
 """Runs every test of the workspace.
 
 Those of tools/ in several processes, and beside them those of src/ with `colcon test`, as many
-packages at a time as there is room for; then what builds src/.
+packages at a time as there is room for; then what builds src/. ament's linters are left out, which
+`make check` runs for all packages at once.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
 than three of that kind are a failure. Everything together is given 70 minutes.
@@ -56,6 +57,7 @@ WATCHED = (
 colcon gives pytest its own PYTEST_ADDOPTS.
 """
 _CORES_OF_OTHERS = 0.5
+_NO_LINTERS = ('-m', 'not linter')
 _LAST_WORDS_S = 10.0
 _POLL_S = 0.2
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run
@@ -251,9 +253,11 @@ def _package(name: str) -> Suite:
     test += ['colcon', '--log-base', f'log/tests of {name}', 'test']
     test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
     test += ['--packages-select', name]
-    again = [*test, '--packages-select-test-failures', '--pytest-args', '--last-failed']
+    again = [*test, '--packages-select-test-failures', '--pytest-args', *_NO_LINTERS]
+    again += ['--last-failed']
     cores = LONGEST.get(name, _CORES_OF_OTHERS)
-    return Suite(name, [*test, '--pytest-args', '--cache-clear'], again, reports, cores)
+    test += ['--pytest-args', *_NO_LINTERS, '--cache-clear']
+    return Suite(name, test, again, reports, cores)
 
 
 def tools() -> Suite:

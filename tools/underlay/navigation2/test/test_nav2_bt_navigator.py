@@ -412,8 +412,10 @@ def test_each_tree_reaches_a_goal(stack: Stack, tree: str) -> None:
     stack.servers.scripts['follow_path'] = ['hang', 0.05]
     stack.client.send(pose=pose(1.0), behavior_tree=tree)
     stack.ros.wait_until(lambda: 'follow_path' in stack.servers.calls)
-    if tree == 'navigate_w_replanning_distance.xml':
-        stack.servers.move(1.1, 0.0)
     handle = stack.client.send(pose=pose(2.0), behavior_tree=tree)
+    if tree == 'navigate_w_replanning_distance.xml':
+        stack.servers.move(
+            1.1, 0.0
+        )  # only then, for the goal before must not be planned for again
     assert stack.client.wait(handle)[0] == SUCCEEDED
     assert stack.servers.goals['compute_path_to_pose'][-1].goal.pose.position.x == 2.0

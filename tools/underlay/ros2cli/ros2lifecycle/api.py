@@ -7,6 +7,7 @@ from typing import Any
 
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
+from ros2cli.graph import DEFAULT_SPIN_TIME_S
 from ros2cli.graph.graph import Graph
 from ros2cli.waiting import call
 from ros2node.api import find_node, nodes_with_service
@@ -48,7 +49,7 @@ def get_lifecycle_nodes(graph: Graph, *, include_hidden_nodes: bool) -> list[str
 
 def find_lifecycle_node(node: Any, name: str) -> str:
     """
-    Find a lifecycle node by name, hidden or not.
+    Find a lifecycle node by name, hidden or not, also if it has just been started.
 
     Parameters
     ----------
@@ -69,7 +70,12 @@ def find_lifecycle_node(node: Any, name: str) -> str:
 
     """
     full_name = find_node(node.watch, name)
-    if full_name not in get_lifecycle_nodes(node.graph, include_hidden_nodes=True):
+
+    def is_lifecycle_node(graph: Graph) -> bool:
+        return full_name in get_lifecycle_nodes(graph, include_hidden_nodes=True)
+
+    # A node is in the graph before its services are.
+    if not node.watch.wait_for(is_lifecycle_node, None, DEFAULT_SPIN_TIME_S):
         raise RuntimeError(f"Node not found\nThe node '{full_name}' is not a lifecycle node")
     return full_name
 

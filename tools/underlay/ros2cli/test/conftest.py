@@ -37,6 +37,15 @@ def ros_environment_variables() -> Iterator[dict[str, str]]:
         }
 
 
+@pytest.fixture
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+    """Reserve a domain for this process and its children."""
+    with domain_id() as domain:
+        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
+        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+        yield domain
+
+
 @pytest.fixture(scope='session')
 def talker(ros_environment_variables: dict[str, str]) -> Iterator[None]:
     """Run the talker for all tests that look at the graph."""

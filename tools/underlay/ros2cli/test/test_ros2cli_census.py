@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests of who is waited for on this machine, and of the socket under attack."""
 
-from collections.abc import Iterator
 import io
 from pathlib import Path
 import socket
@@ -9,7 +8,6 @@ import subprocess
 import sys
 from typing import TextIO
 
-from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph import census as module
 from ros2cli.graph.census import (
@@ -115,15 +113,6 @@ def test_stopped_processes(holders: dict[str, Holder]) -> None:
     assert census.take(SILENCE_S, [FIRST, SECOND]) == BOTH
     assert not census.are_stopped([FIRST, SECOND])
     assert census.are_stopped([SECOND])
-
-
-@pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    """Reserve a domain for this process and its children."""
-    with domain_id() as domain:
-        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', LOCALHOST)
-        yield domain
 
 
 def test_ports_of_another_program(domain: int, capfd: pytest.CaptureFixture[str]) -> None:

@@ -9,7 +9,6 @@ import sys
 import time
 from typing import Any
 
-from domain_coordinator import domain_id
 import pytest
 import rclpy
 from rclpy.context import Context
@@ -31,15 +30,6 @@ node.create_publisher(__import__('std_msgs.msg').msg.String, 'children', 10)
 print('ready', flush=True)
 time.sleep(60)
 """
-
-
-@pytest.fixture
-def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
-    """Reserve a domain for this process and its children."""
-    with domain_id() as domain:
-        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        yield domain
 
 
 @pytest.fixture

@@ -10,7 +10,6 @@ import threading
 import time
 from typing import Any
 
-from domain_coordinator import domain_id
 import pytest
 from ros2cli.graph.graph import Graph
 from ros2cli.graph.probe import ask_server, ask_servers
@@ -53,13 +52,10 @@ def server() -> Iterator[Server]:
 
 
 @pytest.fixture
-def client(server: Server, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+def client(server: Server, domain: int, monkeypatch: pytest.MonkeyPatch) -> str:
     """Have this process and its children use the server; return the variable."""
-    with domain_id() as domain:
-        monkeypatch.setenv('ROS_DOMAIN_ID', str(domain))
-        monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
-        monkeypatch.setenv(SERVERS, str(server))
-        yield str(server)
+    monkeypatch.setenv(SERVERS, str(server))
+    return str(server)
 
 
 @pytest.fixture

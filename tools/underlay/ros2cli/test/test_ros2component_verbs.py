@@ -118,7 +118,7 @@ def prefix(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_types_come_from_the_index(ros2_here: Ros2) -> None:
     """The components of all packages are indented, those of one package are not."""
     types = ros2_here('component', 'types').stdout
-    assert types.startswith('demo\n  demo::Talker\n  demo::Listener\n')
+    assert '\ndemo\n  demo::Talker\n  demo::Listener\n' in f'\n{types}'
     assert ros2_here('component', 'types', 'demo').stdout == 'demo::Talker\ndemo::Listener\n'
 
 

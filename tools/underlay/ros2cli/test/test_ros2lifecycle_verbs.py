@@ -2,11 +2,30 @@
 """Tests of the verbs of `ros2 lifecycle` with a real node."""
 
 from collections.abc import Callable
+import subprocess
 from subprocess import CompletedProcess
+import sys
+from types import SimpleNamespace
 
 import pytest
+from ros2cli.graph.watch import GraphWatch
+import ros2lifecycle.api
+from ros2node.api import known_nodes
 
 Ros2 = Callable[..., CompletedProcess[str]]
+
+SLOW = """
+import time
+import rclpy
+from lifecycle_msgs.srv import GetState
+rclpy.init()
+node = rclpy.create_node('slow')
+print('node', flush=True)
+input()
+time.sleep(0.3)
+service = node.create_service(GetState, 'slow/get_state', lambda _, answer: answer)
+rclpy.spin(node)
+"""
 
 
 def test_nodes(ros2_robot: Ros2) -> None:
@@ -58,3 +77,25 @@ def test_unknown_node(words: list[str], node: str, hint: str, ros2_robot: Ros2) 
     result = ros2_robot('lifecycle', words[0], node, *words[1:])
     assert (result.returncode, result.stdout) == (1, '')
     assert result.stderr == f'Node not found\n{hint}\n'
+
+
+@pytest.mark.usefixtures('domain')
+def test_services_that_come_after_their_node(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A node that is seen while it is being created is a lifecycle node as soon as it is one."""
+    monkeypatch.setattr(ros2lifecycle.api, 'DEFAULT_SPIN_TIME_S', 30.0)
+    with subprocess.Popen(
+        [sys.executable, '-c', SLOW], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as slow:
+
+        def continue_when_known() -> None:
+            if slow.stdin and known_nodes(watch.graph):
+                slow.stdin.write('continue\n')
+                slow.stdin.flush()
+
+        assert slow.stdout and slow.stdout.readline() == 'node\n'
+        with GraphWatch(check=continue_when_known) as watch:
+            assert (
+                ros2lifecycle.api.find_lifecycle_node(SimpleNamespace(watch=watch), 'slow')
+                == '/slow'
+            )
+        slow.kill()
