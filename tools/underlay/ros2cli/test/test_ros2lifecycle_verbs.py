@@ -92,10 +92,10 @@ def test_services_that_come_after_their_node(monkeypatch: pytest.MonkeyPatch) ->
                 slow.stdin.write('continue\n')
                 slow.stdin.flush()
 
-        assert slow.stdout and slow.stdout.readline() == 'node\n'
-        with GraphWatch(check=continue_when_known) as watch:
-            assert (
-                ros2lifecycle.api.find_lifecycle_node(SimpleNamespace(watch=watch), 'slow')
-                == '/slow'
-            )
-        slow.kill()
+        try:
+            assert slow.stdout and slow.stdout.readline() == 'node\n'
+            with GraphWatch(check=continue_when_known) as watch:
+                found = ros2lifecycle.api.find_lifecycle_node(SimpleNamespace(watch=watch), 'slow')
+            assert found == '/slow'
+        finally:
+            slow.kill()
