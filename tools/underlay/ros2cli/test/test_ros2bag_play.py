@@ -21,6 +21,7 @@ from rosbag2_interfaces.srv import (
     GetRate,
     IsPaused,
     Pause,
+    Play,
     PlayNext,
     Resume,
     Seek,
@@ -201,6 +202,7 @@ def test_services_control_the_player(ear: Ear, start_ros2: Start, tmp_path: Path
     topics = ['--topics', '/ticks', '--start-paused']
     process = start_ros2('bag', 'play', str(tmp_path / 'bag'), *topics)
     assert ear.call('is_paused', IsPaused).paused
+    assert not ear.call('play', Play).success
     assert ear.call('play_next', PlayNext).success
     assert ear.call('burst', Burst, num_messages=3).actually_burst == 3
     ear.spin_until(lambda: len(ear.heard) == 4)

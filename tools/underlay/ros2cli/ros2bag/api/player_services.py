@@ -9,7 +9,7 @@ from rclpy.time import Time
 from ros2bag.api.control import offer_service
 from ros2bag.api.player import Player
 from ros2bag.storage.metadata import MessageSpan
-from rosbag2_interfaces.srv import Burst, GetRate, PlayNext, Seek, SetRate, Stop
+from rosbag2_interfaces.srv import Burst, GetRate, Play, PlayNext, Seek, SetRate, Stop
 
 __all__ = ['offer_player_services']
 
@@ -41,6 +41,10 @@ def offer_player_services(node: Any, player: Player, span: MessageSpan) -> None:
         else:
             logger.warning(f'A rate of {request.rate:g} is refused: it has to be above zero.')
 
+    def play(_: Any, response: Any) -> None:
+        response.success = False
+        logger.warning('It is playing already: `ros2 bag play` ends with its bag.')
+
     def play_next(_: Any, response: Any) -> None:
         response.success = bool(player.play_next())
 
@@ -63,6 +67,7 @@ def offer_player_services(node: Any, player: Player, span: MessageSpan) -> None:
 
     offer_service(node, GetRate, 'get_rate', get_rate)
     offer_service(node, SetRate, 'set_rate', set_rate)
+    offer_service(node, Play, 'play', play)
     offer_service(node, PlayNext, 'play_next', play_next)
     offer_service(node, Burst, 'burst', burst)
     offer_service(node, Seek, 'seek', seek)
