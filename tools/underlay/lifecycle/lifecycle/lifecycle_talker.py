@@ -32,6 +32,7 @@ class LifecycleTalker(Node):
         self._publisher: Any = None
         self._timer: Any = None
         self._count = 0
+        self.get_logger().info('Unconfigured. It publishes once it is configured and activated.')
 
     def publish(self) -> None:
         """Publish the next text, or log that the publisher is inactive."""
