@@ -58,9 +58,7 @@ def built_workspace(text: str) -> Path:
         The folder is not a built workspace.
 
     """
-    if not text.strip():
-        raise argparse.ArgumentTypeError('an empty text names no folder.')
-    folder = Path(text).resolve()
+    folder = _folder(text)
     if not (folder / 'tools' / 'in_environment').is_file() or not (folder / 'install').is_dir():
         raise argparse.ArgumentTypeError(
             f"'{folder}' is no built workspace: tools/in_environment or install/ is missing. "
@@ -84,12 +82,16 @@ def workspace_sources(text: str) -> Path:
         The folder is not a clone of a workspace.
 
     """
-    if not text.strip():
-        raise argparse.ArgumentTypeError('an empty text names no folder.')
-    folder = Path(text).resolve()
+    folder = _folder(text)
     if not (folder / 'tools' / 'setup').is_dir() or not (folder / '.git').exists():
         raise argparse.ArgumentTypeError(
             f"'{folder}' is no clone of this workspace: tools/setup or .git is missing. "
             'Make one with `git clone` and check out the commit to compare with there.'
         )
     return folder
+
+
+def _folder(text: str) -> Path:
+    if not text.strip():
+        raise argparse.ArgumentTypeError('an empty text names no folder.')
+    return Path(text).resolve()

@@ -10,11 +10,10 @@ from ros2bag.api.common_arguments import (
     add_log_level_argument,
     count,
     not_negative,
-    regular_expression,
     TopicFilter,
 )
 from ros2bag.storage import BagError
-from ros2cli.arguments import positive_number
+from ros2cli.arguments import positive_number, regular_expression
 from ros2cli.names import absolute
 
 __all__ = [
