@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 Number = TypeVar('Number', int, float)
+_NAMES = {int: 'a whole number', float: 'a number'}
 
 
 def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callable[[str], Number]:
@@ -29,7 +30,7 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
         Parses a text, and raises `argparse.ArgumentTypeError` if it is not such a number.
 
     """
-    bounds = f'at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
+    bounds = f'of at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
 
     def number(text: str) -> Number:
         try:
@@ -37,7 +38,7 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
         except ValueError:
             value = None
         if value is None or math.isinf(value) or not least <= value <= most:
-            raise argparse.ArgumentTypeError(f"'{text}' is no {kind.__name__} {bounds}.")
+            raise argparse.ArgumentTypeError(f"'{text}' is not {_NAMES[kind]} {bounds}.")
         return value
 
     return number
@@ -61,7 +62,7 @@ def built_workspace(text: str) -> Path:
     folder = _folder(text)
     if not (folder / 'tools' / 'in_environment').is_file() or not (folder / 'install').is_dir():
         raise argparse.ArgumentTypeError(
-            f"'{folder}' is no built workspace: tools/in_environment or install/ is missing. "
+            f"'{folder}' is not a built workspace: tools/in_environment or install/ is missing. "
             'Check out the commit to compare with there, and run `make build` in it.'
         )
     return folder
@@ -85,7 +86,7 @@ def workspace_sources(text: str) -> Path:
     folder = _folder(text)
     if not (folder / 'tools' / 'setup').is_dir() or not (folder / '.git').exists():
         raise argparse.ArgumentTypeError(
-            f"'{folder}' is no clone of this workspace: tools/setup or .git is missing. "
+            f"'{folder}' is not a clone of this workspace: tools/setup or .git is missing. "
             'Make one with `git clone` and check out the commit to compare with there.'
         )
     return folder
