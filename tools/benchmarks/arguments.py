@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TypeVar
 
 Number = TypeVar('Number', int, float)
+_NAMES = {int: 'a whole number', float: 'a number'}
 
 
 def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callable[[str], Number]:
@@ -29,7 +30,7 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
         Parses a text, and raises `argparse.ArgumentTypeError` if it is not such a number.
 
     """
-    bounds = f'at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
+    bounds = f'of at least {least:g}' if most == math.inf else f'from {least:g} to {most:g}'
 
     def number(text: str) -> Number:
         try:
@@ -37,7 +38,7 @@ def in_range(kind: type[Number], least: float, most: float = math.inf) -> Callab
         except ValueError:
             value = None
         if value is None or math.isinf(value) or not least <= value <= most:
-            raise argparse.ArgumentTypeError(f"'{text}' is no {kind.__name__} {bounds}.")
+            raise argparse.ArgumentTypeError(f"'{text}' is not {_NAMES[kind]} {bounds}.")
         return value
 
     return number
@@ -58,12 +59,10 @@ def built_workspace(text: str) -> Path:
         The folder is not a built workspace.
 
     """
-    if not text.strip():
-        raise argparse.ArgumentTypeError('an empty text names no folder.')
-    folder = Path(text).resolve()
+    folder = _folder(text)
     if not (folder / 'tools' / 'in_environment').is_file() or not (folder / 'install').is_dir():
         raise argparse.ArgumentTypeError(
-            f"'{folder}' is no built workspace: tools/in_environment or install/ is missing. "
+            f"'{folder}' is not a built workspace: tools/in_environment or install/ is missing. "
             'Check out the commit to compare with there, and run `make build` in it.'
         )
     return folder
@@ -84,12 +83,16 @@ def workspace_sources(text: str) -> Path:
         The folder is not a clone of a workspace.
 
     """
-    if not text.strip():
-        raise argparse.ArgumentTypeError('an empty text names no folder.')
-    folder = Path(text).resolve()
+    folder = _folder(text)
     if not (folder / 'tools' / 'setup').is_dir() or not (folder / '.git').exists():
         raise argparse.ArgumentTypeError(
-            f"'{folder}' is no clone of this workspace: tools/setup or .git is missing. "
+            f"'{folder}' is not a clone of this workspace: tools/setup or .git is missing. "
             'Make one with `git clone` and check out the commit to compare with there.'
         )
     return folder
+
+
+def _folder(text: str) -> Path:
+    if not text.strip():
+        raise argparse.ArgumentTypeError('an empty text names no folder.')
+    return Path(text).resolve()

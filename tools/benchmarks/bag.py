@@ -9,8 +9,6 @@ between two messages' distance in time as it arrives and as it was recorded.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
-from contextlib import contextmanager
 import os
 from pathlib import Path
 import random
@@ -23,7 +21,7 @@ import time
 from bag_traffic import Traffic, traffic
 from domain_coordinator import domain_id
 from mcap.reader import make_reader
-from measuring import Cost
+from measuring import Cost, running
 from rosbags.highlevel import AnyReader
 
 RECORD_S = 5.0
@@ -94,7 +92,7 @@ def print_playing(folder: Path) -> None:
             with traffic(topics(topic_count)) as listener:
                 listener.listen()
                 command = ['ros2', 'bag', 'play', str(bag), '-r', str(rate)]
-                with quiet(command) as process:
+                with running(command, signal.SIGKILL) as process:
                     listener.hear(process)
                 errors = errors_ms(recorded, listener.received, rate)
             print(
@@ -120,7 +118,7 @@ def print_kills(folder: Path, runs: int) -> None:
     lost_s = []
     for run in range(runs):
         bag = folder / f'killed_{run}'
-        with traffic(topics(1)) as sender, quiet(recorder(bag)) as process:
+        with traffic(topics(1)) as sender, running(recorder(bag), signal.SIGKILL) as process:
             sender.connect()
             sender.send(KILL_HZ, random.uniform(1.0, 2.0))
             process.kill()
@@ -154,38 +152,13 @@ def record(bag: Path, sender: Traffic, rate_hz: float) -> Cost:
 
     """
     begin_s = time.monotonic()
-    with quiet(recorder(bag)) as process:
+    with running(recorder(bag), signal.SIGKILL) as process:
         sender.connect()
         sender.send(rate_hz, RECORD_S)
         process.send_signal(signal.SIGINT)
         _, _, usage = os.wait4(process.pid, 0)
     wall_s = time.monotonic() - begin_s
     return Cost(usage.ru_utime + usage.ru_stime, wall_s, usage.ru_maxrss / 1000)
-
-
-@contextmanager
-def quiet(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
-    """
-    Run a command with its output suppressed during a `with` block, then kill it.
-
-    Parameters
-    ----------
-    command
-        The program and its arguments.
-
-    Yields
-    ------
-    Popen
-        The process.
-
-    """
-    with subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    ) as process:
-        try:
-            yield process
-        finally:
-            process.kill()
 
 
 def recorder(bag: Path) -> list[str]:

@@ -9,7 +9,7 @@ import subprocess
 import time
 from typing import Any
 
-import rclpy
+from measuring import own_node
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
@@ -135,13 +135,8 @@ def traffic(topics: list[str]) -> Iterator[Traffic]:
         The node, without publishers and subscriptions yet.
 
     """
-    rclpy.init()
-    node = rclpy.create_node('bag_traffic')
-    try:
+    with own_node('bag_traffic') as node:
         yield Traffic(node, topics)
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()
 
 
 def joint_states(number: int) -> bytes:

@@ -17,7 +17,7 @@ from typing import Any
 
 from domain_coordinator import domain_id
 from humanoid_common.executing import make_executor
-import rclpy
+from measuring import own_node
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
@@ -74,7 +74,8 @@ def measured_run(workspace: Path, seconds: float, with_rates: bool) -> Run:
     """
     with domain_id() as domain:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
-        with _bringup(workspace) as launch, _witness() as witness:
+        with _bringup(workspace) as launch, own_node('witness') as node:
+            witness = _Witness(node)
             witness.wait_until_it_stands()
             begin_s, before_s = witness.time_s(), cpu_by_process(launch.pid)
             time.sleep(seconds)
@@ -156,18 +157,6 @@ class _Witness:
     def _spin_for(self, seconds: float) -> None:
         end_s = time.monotonic() + seconds
         self._spin_until(lambda: time.monotonic() > end_s)
-
-
-@contextmanager
-def _witness() -> Iterator[_Witness]:
-    """Create the witness node."""
-    rclpy.init()
-    node = rclpy.create_node('witness')
-    try:
-        yield _Witness(node)
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()
 
 
 def _class(kind: str) -> Any:

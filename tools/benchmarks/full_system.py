@@ -232,7 +232,7 @@ class Listener:
         end_s = time.monotonic() + timeout_s
         while not is_true():
             if time.monotonic() > end_s:
-                raise TimeoutError(f'Waited {timeout_s:g} s in vain; it has said {self.said}.')
+                raise TimeoutError(f'Timed out after {timeout_s:g} s; it has said {self.said}.')
             self._executor.spin_once(timeout_sec=0.1)
 
 

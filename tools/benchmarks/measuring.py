@@ -8,10 +8,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 import os
 from pathlib import Path
+import signal
 from statistics import median
 import subprocess
 import time
-from typing import Any
+from typing import Any, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 
 @dataclass(frozen=True)
@@ -83,14 +87,18 @@ def median_of(measure: Callable[[], float], runs: int) -> float:
 
 
 @contextmanager
-def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
+def running(
+    command: list[str], last_signal: signal.Signals = signal.SIGTERM
+) -> Iterator[subprocess.Popen[bytes]]:
     """
-    Run a command with its output suppressed during a `with` block, then terminate it.
+    Run a command with its output suppressed during a `with` block, then end it.
 
     Parameters
     ----------
     command
         The program and its arguments.
+    last_signal
+        The signal that ends it, if it has not ended yet.
 
     Yields
     ------
@@ -104,7 +112,34 @@ def running(command: list[str]) -> Iterator[subprocess.Popen[bytes]]:
         try:
             yield process
         finally:
-            process.terminate()
+            process.send_signal(last_signal)
+
+
+@contextmanager
+def own_node(name: str) -> Iterator[Node]:
+    """
+    Initialize rclpy and create a node for a `with` block.
+
+    Parameters
+    ----------
+    name
+        The name of the node.
+
+    Yields
+    ------
+    Node
+        The node; nothing spins it.
+
+    """
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node(name)
+    try:
+        yield node
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
 
 
 def cpu_s(process: int) -> float:

@@ -146,7 +146,7 @@ def go_round(ros: RosSandbox) -> int:
         arrival = robot.go(*goal)
         report(number, goal, arrival)
         off_m, off_deg = belief.error(robot)
-        print(f'     believes to be {off_m:.2f} m and {off_deg:.0f} degrees from where it is')
+        print(f'     its estimated pose is {off_m:.2f} m and {off_deg:.0f} degrees off')
         bad += not arrival.is_reached or arrival.distance_m > REACHED_M
     return bad
 

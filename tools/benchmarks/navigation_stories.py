@@ -197,7 +197,7 @@ def lost(stage: Stage) -> Arrival:
         stage.robot.wait(time_s)
     stage.robot.drive()
     off_m, off_deg = stage.belief.error(stage.navigating)
-    print(f'     believes to be {off_m:.2f} m and {off_deg:.0f} degrees from where it is')
+    print(f'     its estimated pose is {off_m:.2f} m and {off_deg:.0f} degrees off')
     return stage.navigating.go(*KITCHEN)
 
 

@@ -94,7 +94,7 @@ def walk(ros: RosSandbox, options: argparse.Namespace) -> int:
     print(f'{len(arrivals) - len(bad)} of {len(arrivals)} reached without touching anything')
     worst_m, worst_deg = max(e[0] for e in errors), max(e[1] for e in errors)
     last_m, last_deg = errors[-1]
-    print(f'belief off by at most {worst_m:.3f} m and {worst_deg:.1f} degrees,')
+    print(f'estimated pose off by at most {worst_m:.3f} m and {worst_deg:.1f} degrees,')
     print(f'after {robot.robot.topics.time_s:.0f} s by {last_m:.3f} m and {last_deg:.1f} degrees')
     return int(10 * len(bad) > len(arrivals))
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from humanoid_control.walking.planar import NAMES
 from humanoid_simulation.backend import BackendSettings
 from humanoid_simulation.backend.noise import REALISTIC
 from humanoid_simulation.model import Physics
@@ -30,11 +29,6 @@ class PushTrial:
     noise: float = 0.0
     seed: int = 0
     hands: bool = False
-
-    @property
-    def is_outwards(self) -> bool:
-        """Whether the push is towards the stance foot, so that the swing foot must cross over."""
-        return NAMES[self.support] == self.direction
 
 
 def stands_after(trial: PushTrial) -> bool:

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 import os
 from statistics import mean
@@ -15,7 +13,7 @@ from typing import Any
 from domain_coordinator import domain_id
 from geometry_msgs.msg import Twist
 from humanoid_common.qos import SENSOR
-from measuring import cpu_s, running
+from measuring import cpu_s, own_node, running
 import rclpy
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float64
@@ -60,7 +58,8 @@ def simulator_share(
     with domain_id() as domain:
         os.environ['ROS_DOMAIN_ID'] = str(domain)
         command = _simulator(real_time_factor, scene)
-        with running(command) as process, _driver(forward_m_s) as driver:
+        with running(command) as process, own_node('driver') as node:
+            driver = _Driver(node, forward_m_s)
             if scans:
                 driver.listen_to_scans()
             driver.wait_for_factor()
@@ -117,15 +116,3 @@ class _Driver:
         while (left_s := end_s - time.monotonic()) > 0:
             rclpy.spin_once(self._node, timeout_sec=left_s)
         return list(self._factors)
-
-
-@contextmanager
-def _driver(forward_m_s: float) -> Iterator[_Driver]:
-    """Create the driver node."""
-    rclpy.init()
-    node = rclpy.create_node('driver')
-    try:
-        yield _Driver(node, forward_m_s)
-    finally:
-        node.destroy_node()
-        rclpy.shutdown()

@@ -210,7 +210,7 @@ def wait_for(is_true: Callable[[], bool], most_s: float, what: str) -> float:
     begin_s = time.monotonic()
     while not is_true():
         if time.monotonic() - begin_s > most_s:
-            raise SystemExit(f'Waited for {most_s:.0f} s in vain: {what}')
+            raise SystemExit(f'Timed out after {most_s:.0f} s: {what}')
         time.sleep(0.05)
     return time.monotonic() - begin_s
 

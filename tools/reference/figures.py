@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -30,9 +30,13 @@ COLUMNS = (
     'chain',
     'circle',
     'foreign private names',
+    'private imports',
 )
-# Public by the documentation of the standard library, in spite of its underscore.
-DOCUMENTED = {'os._exit'}
+# Public by the documentation of the standard library, in spite of their underscores.
+DOCUMENTED = {'os._exit', '_thread.interrupt_main'}
+OF_NAMED_TUPLES = {'_asdict', '_field_defaults', '_fields', '_make', '_replace'}
+# The functions that reach an attribute by its name as text.
+BY_TEXT = {'delattr', 'getattr', 'hasattr', 'setattr'}
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -124,6 +128,11 @@ def packages() -> dict[str, Path]:
     return {path.parent.name: path.parent for path in sorted(manifests)}
 
 
+def top_names() -> set[str]:
+    """Return the names of the top-level packages that can be imported from all packages."""
+    return {each.name for path in packages().values() for each in path.iterdir() if each.is_dir()}
+
+
 def imports(these: dict[str, Module]) -> dict[str, set[str]]:
     """Return which modules import which others.
 
@@ -157,50 +166,64 @@ def foreign_private_names(module: Module) -> list[str]:
     Returns
     -------
     list of str
-        As `line: expression`, without those of `self`, `cls` and the class itself, and without
-        `DOCUMENTED` ones.
+        As `line: expression`, also of attributes that `getattr` and its like name as text, without
+        those of `self`, `cls` and the class itself, and without documented ones.
 
     """
     own = {'self', 'cls', *(each.name for each in module.classes)}
     found = []
     for node in ast.walk(module.tree):
-        if not isinstance(node, ast.Attribute) or not node.attr.startswith('_'):
+        reached = _reached(node)
+        if reached is None:
             continue
-        text = ast.unparse(node)
-        if text in DOCUMENTED:
+        owner, name = reached
+        if not _is_private(name) or name in OF_NAMED_TUPLES or f'{owner}.{name}' in DOCUMENTED:
             continue
-        if node.attr.endswith('__') or (text.partition('.')[0] in own and text.count('.') == 1):
-            continue
-        if isinstance(node.value, ast.Call) and ast.unparse(node.value) == 'super()':
-            continue
-        found.append(f'{node.lineno}: {text}')
+        if owner not in own and owner != 'super()':
+            found.append(f'{node.lineno}: {ast.unparse(node)}')
     return found
 
 
-def private_imports(these: dict[str, Module], own: Iterable[str]) -> list[str]:
-    """Return the imports of private modules and names of other packages.
+def _reached(node: ast.AST) -> tuple[str, str] | None:
+    """Return the object and the name of the attribute that an expression reaches, if it does."""
+    match node:
+        case ast.Attribute(owner, name):
+            return ast.unparse(owner), name
+        case ast.Call(ast.Name(function), [owner, ast.Constant(str(name)), *_]):
+            return (ast.unparse(owner), name) if function in BY_TEXT else None
+    return None
+
+
+def _is_private(name: str) -> bool:
+    """Return whether an underscore says that a name is private; those of Python are not."""
+    return name.startswith('_') and not name.endswith('__')
+
+
+def private_imports(these: dict[str, Module], of: Container[str] | None = None) -> list[str]:
+    """Return the imports of private modules and names of other packages and of libraries.
 
     Parameters
     ----------
     these : dict of str to Module
-        The modules that import.
-    own : iterable of str
-        The packages whose private modules these may import: those of the same folder.
+        The modules that import; what is private in their own top-level packages does not count.
+    of : container of str
+        The top-level packages whose private parts count; if None, all.
 
     Returns
     -------
     list of str
-        As `module: what it imports`.
+        As `module: what it imports`, without documented ones.
 
     """
-    found = []
-    for name, module in these.items():
-        for each in module.imported():
-            top, *inner = each.split('.')
-            private = any(part.startswith('_') and not part.endswith('__') for part in inner)
-            if top not in own and private and top in _TOPS:
-                found.append(f'{name}: {each}')
-    return found
+    own = {name.partition('.')[0] for name in these}
+    return [
+        f'{name}: {each}'
+        for name, module in these.items()
+        for each in sorted(set(module.imported()) - DOCUMENTED)
+        if (top := each.partition('.')[0]) not in own
+        and (of is None or top in of)
+        and any(map(_is_private, each.split('.')))
+    ]
 
 
 def row(name: str, these: dict[str, Module]) -> list[str]:
@@ -237,6 +260,7 @@ def row(name: str, these: dict[str, Module]) -> list[str]:
         str(len(chain(graph))),
         str(max(map(len, circles(graph)), default=0)),
         str(sum(len(foreign_private_names(each)) for each in with_code)),
+        str(len(private_imports(these))),
     ]
 
 
@@ -258,9 +282,6 @@ def _median(values: Sequence[int]) -> int:
 def _share(values: Sequence[int], share: float) -> int:
     """Return the value below which a share of sorted values lies, 0 if there is none."""
     return values[int(share * (len(values) - 1))] if values else 0
-
-
-_TOPS = {each.name for path in packages().values() for each in path.iterdir() if each.is_dir()}
 
 
 def main(names: Sequence[str]) -> int:

@@ -103,7 +103,7 @@ def linked_file(root: Path, page: str, path: str) -> str:
         if not each.startswith('..') and (root / each).is_file():
             return each
     raise SiteError(
-        f'{page} links to {path}, which is no file of the workspace and no folder with a '
+        f'{page} links to {path}, which is neither a file of the workspace nor a folder with a '
         'README.md: correct the link'
     )
 

@@ -8,7 +8,8 @@ import math
 from geometry_msgs.msg import Pose, Quaternion
 from humanoid_control.hosting.conversions import body_pose_of
 from humanoid_control.walking.commands import BodyPose, BodyPoseFollower, UPRIGHT
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
 import pytest
 
 P = WalkParameters()
@@ -24,19 +25,19 @@ P = WalkParameters()
 )
 def test_it_bends_as_far_as_it_can(wanted: BodyPose, can: BodyPose) -> None:
     """What is too much is cut."""
-    assert wanted.within(P) == can
+    assert wanted.within(P.body_pose) == can
 
 
 @pytest.mark.parametrize('pose', [BodyPose(math.nan, 0.0), BodyPose(0.0, math.inf)])
 def test_what_is_no_pose(pose: BodyPose) -> None:
     """It is refused."""
     with pytest.raises(WalkingError, match='finite'):
-        pose.within(P)
+        pose.within(P.body_pose)
 
 
 def test_it_follows_at_a_rate() -> None:
     """And is not upright before it is so."""
-    follower = BodyPoseFollower(P)
+    follower = BodyPoseFollower(P.body_pose)
     assert follower.is_upright
     follower.update(BodyPose(0.4, -0.05), 0.5)
     assert follower.pose.pitch_rad == pytest.approx(0.5 * P.body_pose.bend_rad_s)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from humanoid_control.walking import WalkParameters
 from humanoid_control.walking.footing import Foothold, Footing, SoleReading
+from humanoid_control.walking.gait_parameters import PostureParameters
 from humanoid_control.walking.planar import GroundPlane, LEFT, PlanarPose, RIGHT
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_control.walking.terrain import FootholdAdaptation
@@ -18,7 +19,7 @@ TILTED = GroundPlane(0.01, 0.05 + 0.02j)
 def _footing(robot: Robot) -> Footing:
     """Return feet that were told to stand level."""
     feet = [Foothold(PlanarPose(0.09j)), Foothold(PlanarPose(-0.09j))]
-    return Footing(FootShape.of(robot, WalkParameters()), feet)
+    return Footing(FootShape.of(robot, PostureParameters()), feet)
 
 
 def conformed(

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking.footing import Foothold, Footing, loads_for
-from humanoid_control.walking.parameters import WalkParameters
+from humanoid_control.walking.gait_parameters import PostureParameters
 from humanoid_control.walking.planar import GroundPlane, LEFT, PlanarPose, RIGHT, SIDES
 from humanoid_control.walking.support_polygon import FootShape
 from humanoid_description.robot import Robot
@@ -18,7 +18,7 @@ RANDOM = np.random.default_rng(5)
 
 def test_shape_is_that_of_the_model(robot: Robot) -> None:
     """The area of the sole is the foot's box less the margins."""
-    shape = FootShape.of(robot, WalkParameters())
+    shape = FootShape.of(robot, PostureParameters())
     assert (shape.front_m, shape.back_m) == pytest.approx((0.125, -0.075))
     assert (shape.outer_m, shape.inner_m) == pytest.approx((0.047, -0.047))
 

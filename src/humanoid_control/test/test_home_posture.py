@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import outwards, SIDES
 from humanoid_control.walking.walking_robot import HomePosture, WalkingRobot
 from humanoid_description.drives import load_drives

@@ -53,7 +53,7 @@ def _stance(robot: Robot) -> Stance:
     state = walking.body.state(np.eye(3), np.zeros(3), home.positions_rad, still)
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
     sensed = RobotState(0.0, state, level, (0.5, 0.5), UNDRAGGED, still, np.zeros(3))
-    footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
+    footing = footing_below(0j, walking, FootShape.of(robot, P.posture), P, sensed)
     return Stance(walking, home, state, footing, loads_for(footing, SIDES, footing.rest_point))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 
-from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.pendulum import (
     ComObserver,
     ComReference,

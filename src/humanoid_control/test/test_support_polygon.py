@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.support_polygon import SupportPolygon
 import numpy as np
 import pytest

@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 
 from humanoid_control.walking.commands import VelocityCommand, VelocityLimits
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
 import numpy as np
 import pytest
 

@@ -8,7 +8,8 @@ import math
 from humanoid_common.parameters import build, ParameterError
 from humanoid_control.hosting.parameters import HostParameters
 from humanoid_control.walking.commands import largest_change
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
 import pytest
 
 

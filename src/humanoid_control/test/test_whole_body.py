@@ -48,7 +48,11 @@ def _body(robot: Robot) -> tuple[WalkingRobot, WholeBody, Footing]:
     drives = load_drives()
     walking = WalkingRobot.of(robot, drives, tuple(drives))
     whole = WholeBody(walking, HomePosture.of(walking, P), P)
-    return walking, whole, Footing(FootShape.of(robot, P), [Foothold(pose) for pose in FEET])
+    return (
+        walking,
+        whole,
+        Footing(FootShape.of(robot, P.posture), [Foothold(pose) for pose in FEET]),
+    )
 
 
 def state_of(walking: WalkingRobot, joints: JointMotion) -> BodyState:
@@ -133,7 +137,7 @@ def test_base_sinks_to_reach(robot: Robot, walking: WalkingRobot, state: BodySta
     """A base that is too high for its legs is lowered, and otherwise stays as it is."""
     level = Attitude(0.0, 0.0, 0.0, (0.0, 0.0, 0.0))
     sensed = RobotState(0.0, state, level, (0.5, 0.5), UNDRAGGED, state.bias_nm, np.zeros(3))
-    footing = footing_below(0j, walking, FootShape.of(robot, P), P, sensed)
+    footing = footing_below(0j, walking, FootShape.of(robot, P.posture), P, sensed)
     com = ESTIMATE.com_motion(state)
     wanted = base_below(Motion(), 0.8, TURNING, com, ESTIMATE, state)
     sunk = within_reach(wanted, walking, footing, SIDES, P.posture.leg_reach)

@@ -33,8 +33,8 @@ def from_quaternion(quaternion: Sequence[float] | Array) -> Array:
     square = w * w + x * x + y * y + z * z
     if not 0.0 < square < math.inf:
         raise ValueError(
-            f'The quaternion w, x, y, z = {w}, {x}, {y}, {z} is no rotation: its length must be '
-            'finite and not zero. Give one of length 1.'
+            f'The quaternion w, x, y, z = {w}, {x}, {y}, {z} is not a rotation: its length must '
+            'be finite and not zero. Give one of length 1.'
         )
     s = 2.0 / square
     return np.array(

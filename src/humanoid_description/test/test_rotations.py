@@ -26,7 +26,7 @@ def test_from_quaternion(length: float) -> None:
 @pytest.mark.parametrize('w', [0.0, math.nan, math.inf])
 def test_no_quaternion(w: float) -> None:
     """A quaternion without a direction is refused."""
-    with pytest.raises(ValueError, match='is no rotation'):
+    with pytest.raises(ValueError, match='is not a rotation'):
         rotations.from_quaternion((w, 0.0, 0.0, 0.0))
 
 

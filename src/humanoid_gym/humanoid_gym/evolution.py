@@ -75,7 +75,7 @@ class SearchState:
         OSError
             The file cannot be read.
         UserError
-            It is no checkpoint of a search for so many parameters.
+            It is not a checkpoint of a search for so many parameters.
 
         """
         try:
@@ -88,7 +88,7 @@ class SearchState:
         ) as error:  # fmt: skip
             if isinstance(error, OSError) and error.errno is not None:
                 raise
-            raise UserError(f"'{path}' is no checkpoint of a search. Move it away.") from None
+            raise UserError(f"'{path}' is not a checkpoint of a search. Move it away.") from None
         return state
 
     def save(self, path: Path) -> None:

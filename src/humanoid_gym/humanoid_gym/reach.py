@@ -84,7 +84,7 @@ class ReachEnv(HumanoidEnv):
         drawn_m = self.gripper_m(dict(zip(self._arm, arm_rad.tolist(), strict=True)))
         target_m = np.asarray(options.get('target_m', drawn_m), dtype=np.float64)
         if target_m.shape != (3,) or not np.isfinite(target_m).all():
-            raise ValueError(f'The target {target_m} is no place: give x, y and z in m.')
+            raise ValueError(f'The target {target_m} is not a position: give x, y and z in m.')
         self._target_m = target_m
 
     def gripper_m(self, positions_rad: Mapping[str, float]) -> Array:

@@ -184,7 +184,7 @@ def _at_least(least: int) -> Callable[[str], int]:
     def read(text: str) -> int:
         if not (text.isascii() and text.isdigit() and len(text) < _DIGITS and int(text) >= least):
             raise argparse.ArgumentTypeError(
-                f"'{shortened(text)}' is no whole number of at least {least}."
+                f"'{shortened(text)}' is not a whole number of at least {least}."
             )
         return int(text)
 
@@ -200,7 +200,7 @@ def _above_zero(most: float, hint: str = '') -> Callable[[str], float]:
         except ValueError:
             value = 0.0
         if not 0.0 < value <= most:
-            sentence = f"'{shortened(text)}' is no number above zero, up to {most:g}. {hint}"
+            sentence = f"'{shortened(text)}' is not a number above zero, up to {most:g}. {hint}"
             raise argparse.ArgumentTypeError(sentence.strip())
         return value
 

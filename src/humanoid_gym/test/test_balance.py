@@ -78,7 +78,7 @@ def test_a_file_that_is_no_checkpoint(tmp_path: Path, content: bytes) -> None:
     """It is refused with a sentence that says what to do."""
     path = tmp_path / 'checkpoint.npz'
     path.write_bytes(content)
-    with pytest.raises(UserError, match=r'checkpoint\.npz. is no checkpoint of a search\. Move'):
+    with pytest.raises(UserError, match=r'\.npz. is not a checkpoint of a search\. Move'):
         SearchState.load(path, 3)
 
 
@@ -97,7 +97,7 @@ def test_a_checkpoint_of_another_search(tmp_path: Path, changes: dict[str, Any])
     """With other sizes, or values that no search has, it is refused as well."""
     path = tmp_path / 'checkpoint.npz'
     replace(SearchState.around(np.zeros(3), 0.1), **changes).save(path)
-    with pytest.raises(UserError, match='is no checkpoint of a search'):
+    with pytest.raises(UserError, match='is not a checkpoint of a search'):
         SearchState.load(path, 3)
 
 
@@ -293,14 +293,14 @@ def test_episodes_that_cannot_be_run(episodes: Any, name: str, reason: str) -> N
 @pytest.mark.parametrize(
     ('arguments', 'sentence'),
     [
-        (['--candidates', '3'], "'3' is no whole number of at least 4."),
-        (['--minutes', '0'], "'0' is no number above zero"),
-        (['--minutes', 'nan'], "'nan' is no number above zero"),
-        (['--steps', 'many'], "'many' is no whole number of at least 1."),
+        (['--candidates', '3'], "'3' is not a whole number of at least 4."),
+        (['--minutes', '0'], "'0' is not a number above zero"),
+        (['--minutes', 'nan'], "'nan' is not a number above zero"),
+        (['--steps', 'many'], "'many' is not a whole number of at least 1."),
         (['--folder', ''], 'an empty text names no folder.'),
-        (['--seed', '-1'], "'-1' is no whole number of at least 0."),
+        (['--seed', '-1'], "'-1' is not a whole number of at least 0."),
         (['--strongest-ns', '51'], 'The robot survives no push of more than 50 N s.'),
-        (['--generations', '9' * 5000], 'is no whole number of at least 1.'),
+        (['--generations', '9' * 5000], 'is not a whole number of at least 1.'),
     ],
 )
 def test_mistakes_in_arguments(

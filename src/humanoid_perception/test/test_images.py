@@ -40,9 +40,10 @@ def test_pictures_of_each_encoding(encoding: str, order: list[int], padding: int
     assert (color_of(message(sent, encoding, padding)) == expected).all()
 
 
-def test_grey_pictures_have_three_channels():
+@pytest.mark.parametrize('encoding', ['mono8', '8UC1'])
+def test_grey_pictures_have_three_channels(encoding: str):
     grey = np.arange(12, dtype=np.uint8).reshape(3, 4)
-    assert (color_of(message(grey, 'mono8')) == grey[..., None]).all()
+    assert (color_of(message(grey, encoding)) == grey[..., None]).all()
 
 
 @pytest.mark.parametrize(

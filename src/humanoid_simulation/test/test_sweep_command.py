@@ -154,7 +154,7 @@ def test_an_address_that_is_none(folder: Path, capsys: pytest.CaptureFixture[str
     with pytest.raises(SystemExit) as caught:
         sweep(folder, '--ray', ' ')
     assert caught.value.code == command.PROBLEM_EXIT
-    assert "an empty text is no address; 'auto' finds the cluster" in capsys.readouterr().err
+    assert "an empty text is not an address; 'auto' finds the cluster" in capsys.readouterr().err
 
 
 def test_replay_starts_a_launch(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -322,7 +322,7 @@ def test_nothing_listens_at_an_address(ray: FakeRay, address: str) -> None:
     with socket.socket() as reserved:  # bound, but nothing listens
         reserved.bind(('127.0.0.1', 0))
         address = address.format(reserved.getsockname()[1])
-        with pytest.raises(SimulationError, match='There is no connection with a Ray cluster at'):
+        with pytest.raises(SimulationError, match='Cannot connect to a Ray cluster at'):
             [*RayCluster(work, address, VERSION).outcomes(RUNS)]
     assert not ray.connected
 

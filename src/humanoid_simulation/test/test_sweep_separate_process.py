@@ -102,11 +102,9 @@ def test_the_end_of_the_process_is_an_error(
     assert next(outcomes).run == 'good'
     with pytest.raises(SimulationError) as caught:
         next(outcomes)
-    assert (
-        f'The cluster is lost: the process that was connected with it ended with status {status}'
-        in str(caught.value)
-    )
-    assert f'{tmp_path}/log has its last words' in str(caught.value)
+    lost = 'The cluster can no longer be reached: the process connected to it'
+    assert f'{lost} ended with status {status}' in str(caught.value)
+    assert f'{tmp_path}/log has its last output' in str(caught.value)
     assert ('ValueError: a bug' in (tmp_path / 'log').read_text()) == (run == 'fails')
 
 

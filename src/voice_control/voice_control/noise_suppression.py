@@ -142,8 +142,8 @@ def _library() -> ctypes.CDLL:
     path = next((path for path in paths if path.is_file()), None)
     if path is None:
         raise NoiseSuppressionError(
-            f'The Python package {_PACKAGE} is not installed: install it, with no need for what '
-            'it depends on, or set noise_suppression to false.'
+            f'The Python package {_PACKAGE} is not installed: install it, without '
+            'what it depends on, or set noise_suppression to false.'
         )
     try:
         library = ctypes.CDLL(str(path))

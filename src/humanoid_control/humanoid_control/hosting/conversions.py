@@ -9,7 +9,7 @@ from geometry_msgs.msg import Pose, Twist
 from humanoid_control.controllers import CommandError, TrajectoryPoint
 from humanoid_control.controllers.trajectory import MOST_POINTS
 from humanoid_control.walking.commands import BodyPose, VelocityCommand
-from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.errors import WalkingError
 from humanoid_description.rotations import from_quaternion, to_rpy
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import astuple, dataclass
 import math
 
-from humanoid_control.walking.parameters import VelocityParameters, WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.gait_parameters import BodyPoseParameters, VelocityParameters
 from humanoid_control.walking.planar import limited, Point
 
 
@@ -193,13 +194,13 @@ class BodyPose:
     pitch_rad: float = 0.0
     height_m: float = 0.0
 
-    def within(self, parameters: WalkParameters) -> BodyPose:
+    def within(self, parameters: BodyPoseParameters) -> BodyPose:
         """
         Clamp the pose to the range that the robot can reach.
 
         Parameters
         ----------
-        parameters : WalkParameters
+        parameters : BodyPoseParameters
             Limits of the pitch (`bend_rad`, `bend_back_rad`) and of the height (`lower_m`).
 
         Raises
@@ -214,11 +215,8 @@ class BodyPose:
                 f'{self.height_m:g} m: give finite numbers.'
             )
         return BodyPose(
-            min(
-                max(self.pitch_rad, -parameters.body_pose.bend_back_rad),
-                parameters.body_pose.bend_rad,
-            ),
-            min(max(self.height_m, -parameters.body_pose.lower_m), 0.0),
+            min(max(self.pitch_rad, -parameters.bend_back_rad), parameters.bend_rad),
+            min(max(self.height_m, -parameters.lower_m), 0.0),
         )
 
 
@@ -229,7 +227,7 @@ UPRIGHT = BodyPose()
 class BodyPoseFollower:
     """Rate limiter for the body pose, so that the balance can follow."""
 
-    parameters: WalkParameters
+    parameters: BodyPoseParameters
     pose: BodyPose = UPRIGHT
     """Present target of the body pose."""
     pitch_rate_rad_s: float = 0.0
@@ -239,8 +237,8 @@ class BodyPoseFollower:
         """Whether the body is upright enough to step."""
         p = self.parameters
         return (
-            abs(self.pose.pitch_rad) < p.body_pose.upright_pitch_rad
-            and self.pose.height_m > -p.body_pose.upright_height_m
+            abs(self.pose.pitch_rad) < p.upright_pitch_rad
+            and self.pose.height_m > -p.upright_height_m
         )
 
     def update(self, wanted: BodyPose, passed_s: float) -> None:
@@ -256,10 +254,8 @@ class BodyPoseFollower:
 
         """
         p = self.parameters
-        pitch_rad = _towards(
-            self.pose.pitch_rad, wanted.pitch_rad, p.body_pose.bend_rad_s * passed_s
-        )
-        height_m = _towards(self.pose.height_m, wanted.height_m, p.body_pose.lower_m_s * passed_s)
+        pitch_rad = _towards(self.pose.pitch_rad, wanted.pitch_rad, p.bend_rad_s * passed_s)
+        height_m = _towards(self.pose.height_m, wanted.height_m, p.lower_m_s * passed_s)
         turned_rad = pitch_rad - self.pose.pitch_rad
         self.pitch_rate_rad_s = turned_rad / passed_s if passed_s > 0.0 else 0.0
         self.pose = BodyPose(pitch_rad, height_m)

@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 import math
 
-from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.planar import Point
 
 GRAVITY_M_S2 = 9.81

@@ -9,7 +9,7 @@ import math
 from humanoid_control.backends import Observation
 from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.tree import DynamicsError
-from humanoid_control.walking.parameters import WalkingError
+from humanoid_control.walking.errors import WalkingError
 from humanoid_control.walking.pendulum import GRAVITY_M_S2
 from humanoid_control.walking.planar import Point
 from humanoid_control.walking.walking_robot import Attitude, RobotState, WalkingRobot

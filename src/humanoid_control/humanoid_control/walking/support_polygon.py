@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.gait_parameters import PostureParameters
 from humanoid_control.walking.planar import cross, dot, limited, outwards, PlanarPose, Point
 from humanoid_description.geometry import convex_hull, outline
 from humanoid_description.kinematics import chain, pose_along
@@ -94,7 +95,7 @@ class FootShape:
     load_m: Point
 
     @classmethod
-    def of(cls, robot: Robot, parameters: WalkParameters) -> FootShape:
+    def of(cls, robot: Robot, parameters: PostureParameters) -> FootShape:
         """
         Measure the supporting rectangle of the left sole from the collision shapes of the foot.
 
@@ -102,7 +103,7 @@ class FootShape:
         ----------
         robot
             Description of the robot; its link `l_sole` is fixed to the left foot.
-        parameters : WalkParameters
+        parameters : PostureParameters
             Margins from the edges of the sole, and the offset of the planned load point.
 
         Returns
@@ -134,14 +135,14 @@ class FootShape:
         )
 
     @classmethod
-    def _within(cls, lowest: Array, highest: Array, parameters: WalkParameters) -> FootShape:
+    def _within(cls, lowest: Array, highest: Array, parameters: PostureParameters) -> FootShape:
         """Build the shape from the extent of the sole, reduced by the margins."""
         return cls(
-            float(highest[0]) - parameters.posture.margin_length_m,
-            float(lowest[0]) + parameters.posture.margin_length_m,
-            float(highest[1]) - parameters.posture.margin_width_m,
-            float(lowest[1]) + parameters.posture.margin_width_m,
-            complex(parameters.posture.zmp_forward_m, -parameters.posture.zmp_inward_m),
+            float(highest[0]) - parameters.margin_length_m,
+            float(lowest[0]) + parameters.margin_length_m,
+            float(highest[1]) - parameters.margin_width_m,
+            float(lowest[1]) + parameters.margin_width_m,
+            complex(parameters.zmp_forward_m, -parameters.zmp_inward_m),
         )
 
     def load_point(self, side: int, sole: PlanarPose) -> Point:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from humanoid_control.walking.footing import SoleReading
-from humanoid_control.walking.parameters import SwingParameters
+from humanoid_control.walking.gait_parameters import SwingParameters
 from humanoid_control.walking.swing_foot import StepClock
 
 

@@ -118,7 +118,7 @@ class Walk:
         self._floor = LevelFloor(parameters.terrain.level_tolerance_m)
         self._force = ForceObserver(robot.body.mass_kg, parameters.obstacles.force_rate_1_s)
         self._touch = TouchObserver(robot, parameters)
-        self.body = BodyPoseFollower(parameters)
+        self.body = BodyPoseFollower(parameters.body_pose)
         """Body pose, which follows the commanded one at limited rates."""
         self._shares = (0.5, 0.5)
         self._zmp_m = self._footing.rest_point

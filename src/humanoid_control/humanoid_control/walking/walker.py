@@ -89,7 +89,7 @@ class Walker:
         walking = WalkingRobot.of(robot, drives, joints)
         return cls(
             walking,
-            FootShape.of(robot, parameters),
+            FootShape.of(robot, parameters.posture),
             HomePosture.of(walking, parameters),
             parameters,
             imu,
@@ -155,7 +155,7 @@ class Walker:
             The pose is not finite.
 
         """
-        self._body = pose.within(self.parameters)
+        self._body = pose.within(self.parameters.body_pose)
 
     def update(self, observation: Observation) -> JointTargets:
         """

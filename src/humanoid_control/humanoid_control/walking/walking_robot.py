@@ -12,7 +12,8 @@ from humanoid_control.dynamics.body_state import BodyState
 from humanoid_control.dynamics.frames import Frame
 from humanoid_control.dynamics.leg_ik import leg_posture, LegGeometry
 from humanoid_control.dynamics.tree import JointGroup
-from humanoid_control.walking.parameters import WalkingError, WalkParameters
+from humanoid_control.walking.errors import WalkingError
+from humanoid_control.walking.parameters import WalkParameters
 from humanoid_control.walking.planar import LEFT, NAMES, outwards, Point, RIGHT, SIDES
 from humanoid_description.drives import Drive
 from humanoid_description.kinematics import chain, pose_along

@@ -110,14 +110,16 @@ def _parser() -> argparse.ArgumentParser:
 def _count(text: str) -> int:
     """Parse a number of processes."""
     if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is no whole number of at least 1.")
+        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number of at least 1.")
     return int(text)
 
 
 def _address(text: str) -> str:
     """Parse the address of a cluster: without one, Ray would start a cluster of its own."""
     if not text.strip():
-        raise argparse.ArgumentTypeError("an empty text is no address; 'auto' finds the cluster.")
+        raise argparse.ArgumentTypeError(
+            "an empty text is not an address; 'auto' finds the cluster."
+        )
     return text
 
 
@@ -225,7 +227,7 @@ def replay(key: str, folder: Path) -> NoReturn:
     run = find_run(path, key)
     if run.version != code_version():
         print(
-            f'The code has changed since this run: version {run.version} then. The replay may '
+            f'The code has changed since this run: it used version {run.version}. The replay may '
             'end differently.',
             file=sys.stderr,
         )

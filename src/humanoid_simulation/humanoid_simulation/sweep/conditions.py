@@ -114,7 +114,9 @@ class Conditions:
     def __post_init__(self) -> None:
         """Check what must hold for several conditions together."""
         if self.load_kg and not self.hands:
-            raise ParameterError("'load_kg' needs 'hands: true': nothing carries without.")
+            raise ParameterError(
+                "'load_kg' needs 'hands: true': without hands, the robot cannot carry."
+            )
         self._check_pushes()
         defaults = {each.name: each.default for each in fields(self)}
         for name in _STEADY_ONLY if self.commands == RANDOM else ():

@@ -250,7 +250,7 @@ def _reach(address: str) -> None:
 def _no_connection(address: str, error: Exception) -> SimulationError:
     """Create the error for a cluster that cannot be reached."""
     return SimulationError(
-        f'There is no connection with a Ray cluster at {address}: {_last_line(error)}. Start one '
+        f'Cannot connect to a Ray cluster at {address}: {_last_line(error)}. Start one '
         'with `ray start --head`, or give the address that it has printed.'
     )
 

@@ -88,8 +88,8 @@ class SeparateProcess:
                     yield answer
             except (EOFError, OSError) as error:
                 raise SimulationError(
-                    f'{self._name} is lost: the process that was connected with it '
-                    f'{processes.ending_text(process)}; {self._log} has its last words. Finished '
+                    f'{self._name} can no longer be reached: the process connected to it '
+                    f'{processes.ending_text(process)}; {self._log} has its last output. Finished '
                     'runs are kept: bring it back, and give the same command again.'
                 ) from error
         finally:

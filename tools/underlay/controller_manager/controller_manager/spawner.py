@@ -187,7 +187,7 @@ class Spawner:
         unload(self._node, self._options)
 
     def _fail(self, reason: str) -> bool:
-        self._log.error(f"{reason}. What the controller manager '{self._manager}' logs says why.")
+        self._log.error(f"{reason}. The log of the controller manager '{self._manager}' says why.")
         return False
 
 

@@ -107,7 +107,7 @@ def convert(pixels: Pixels, source_name: str, target_name: str) -> Pixels:
         raise CvBridgeError(
             f"The numbers of '{source_name}' have no meaning as colours, so they cannot become "
             f"'{target_name}': leave the encoding out, or have the image published as mono8, bgr8 "
-            'or their like.'
+            'or similar.'
         )
     if source.colours and target.colours and source.colours != target.colours:
         pixels = _in_other_colours(pixels, source, target, f"'{source_name}' to '{target_name}'")

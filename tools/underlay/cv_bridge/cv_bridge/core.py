@@ -260,7 +260,7 @@ class CvBridge:
             if name == np.dtype(dtype).name:
                 return f'{letters}C{n_channels}'
         raise CvBridgeError(
-            f'Images have no values of the type {np.dtype(dtype)}: convert the array with astype '
+            f'Images cannot have values of type {np.dtype(dtype)}: convert the array with astype '
             f'to {", ".join(_KINDS.values())}.'
         )
 
@@ -291,7 +291,7 @@ class CvBridge:
         for letters, name in _KINDS.items():
             if getattr(cv2, f'CV_{letters}') == depth and channels >= 0:
                 return name, channels + 1
-        raise CvBridgeError(f'{cvtype} is no type of images in OpenCV, such as cv2.CV_8UC3.')
+        raise CvBridgeError(f'{cvtype} is not an image type of OpenCV, such as cv2.CV_8UC3.')
 
     def encoding_to_cvtype2(self, encoding: str) -> int:
         """

@@ -91,7 +91,7 @@ class Updater(DiagnosticTaskVector):
             self._warned_of_hardware = True
             self.node.get_logger().warning(
                 'The diagnostics have no hardware ID: call setHardwareID of the Updater, for '
-                "instance with the serial number, or with 'none' without a device"
+                "instance with the serial number, or with 'none' if there is no device"
             )
         if self.verbose:
             for status in found:

@@ -74,8 +74,9 @@ def encode_compressed_depth(
         stored = _quantised(pixels_of(image), a, b, settings.depth_max)
     else:
         raise ValueError(
-            f"Images with the encoding '{image.encoding}' are no depths: compressedDepth takes "
-            "16UC1 and 32FC1. Use the transport 'compressed' for colours and greys."
+            f"Images with the encoding '{image.encoding}' are not depth images: "
+            "compressedDepth takes 16UC1 and 32FC1. Use the transport 'compressed' for colours "
+            'and greys.'
         )
     data = packed(stored, 'PNG', compress_level=settings.png_level)
     return CompressedImage(
@@ -123,7 +124,9 @@ def decode_compressed_depth(message: CompressedImage) -> Image:
         )
     data = bytes(message.data)
     if len(data) < HEADER.size:
-        raise ValueError(f'{len(data)} bytes of data are less than the header of {HEADER.size}.')
+        raise ValueError(
+            f'{len(data)} bytes of data are too few: the header alone has {HEADER.size}.'
+        )
     _, a, b = HEADER.unpack_from(data)
     stored = unpacked(data[HEADER.size :], ('PNG',))
     if stored.ndim != 2 or stored.dtype != np.uint16:

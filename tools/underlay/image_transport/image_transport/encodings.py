@@ -63,7 +63,7 @@ def parse_encoding(name: str) -> Encoding:
         return Encoding(_YUV[name], 2, 'u1')
     raise ValueError(
         f"The encoding '{name}' is not supported; supported are rgb8, bgr8, rgba8, bgra8, mono8, "
-        'the same with 16 instead of 8, 8UC1 to 64FC4, bayer_rggb8 and its like, and yuv422.'
+        'the same with 16 instead of 8, 8UC1 to 64FC4, bayer_rggb8 and similar, and yuv422.'
     )
 
 

@@ -130,7 +130,7 @@ class ImagePublisher:
                 message = self._encoders[transport](image)
             except ValueError as error:
                 self._node.get_logger().warning(
-                    f'An image is left out of {publisher.topic_name}: {error}',
+                    f'An image is not published on {publisher.topic_name}: {error}',
                     throttle_duration_sec=QUIET_S,
                 )
                 continue

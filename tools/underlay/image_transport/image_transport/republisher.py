@@ -59,8 +59,8 @@ class Republisher(Node):
         for sentence in unknown_overrides(self):
             self.get_logger().warning(sentence)
         self.get_logger().info(
-            f'Republishing {source} on {", ".join(self._publisher.topics())} while somebody '
-            'listens.'
+            f'Republishing {source} on {", ".join(self._publisher.topics())} while there '
+            'are subscribers.'
         )
 
     def _declared(self, name: str, default: str, description: str) -> str:

@@ -164,7 +164,7 @@ def subscribe_to_images(
             image = decode(message)
         except ValueError as error:
             node.get_logger().warning(
-                f'An image of {name} is left out: {error}', throttle_duration_sec=QUIET_S
+                f'An image on {name} is skipped: {error}', throttle_duration_sec=QUIET_S
             )
             return
         callback(image)

@@ -90,7 +90,7 @@ def test_colours_are_refused():
     [
         ('16UC1; compressedDepth rvl', b'', "'16UC1; compressedDepth rvl' is not supported"),
         ('rgb8; jpeg compressed bgr8', b'', 'not supported'),
-        ('16UC1; compressedDepth png', b'short', '5 bytes of data are less than the header'),
+        ('16UC1; compressedDepth png', b'short', '5 bytes of data are too few: the header'),
         ('16UC1; compressedDepth png', bytes(20), '8 bytes of data are no PNG'),
     ],
 )

@@ -74,7 +74,7 @@ def test_decompresses(probe: Probe, programs: Programs) -> None:
     sender = probe.sender(CompressedImage, '/camera/small', qos_profile_sensor_data)
     probe.send_until(
         lambda: sender.publish(CompressedImage(data=b'nothing')),
-        lambda: 'An image of /camera/small is left out: 7 bytes of data are' in program.output,
+        lambda: 'An image on /camera/small is skipped: 7 bytes of data are' in program.output,
         'it says nothing of broken images',
     )
     message = encode_compressed(MONO, publishing.CompressedSettings('png'))

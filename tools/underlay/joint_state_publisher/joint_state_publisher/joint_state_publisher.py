@@ -14,7 +14,11 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from robot_state_publisher.node_arguments import parameters_from_file, unknown_parameters
+from robot_state_publisher.node_arguments import (
+    given_parameters,
+    parameters_from_file,
+    unknown_parameters,
+)
 from robot_state_publisher.state_watch import StateWatch
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -282,7 +286,7 @@ def _declare_settings(node: Node, extras: Mapping[str, Extra]) -> Settings:
         **DESCRIPTIONS,
         **{name: extra.description for name, extra in extras.items()},
     }
-    given = {name: each.value for name, each in getattr(node, '_parameter_overrides', {}).items()}
+    given = given_parameters(node)
     for sentence in unknown_parameters(given, descriptions, MAPS):
         node.get_logger().warning(sentence)
     settings = settings_of(given)

@@ -73,7 +73,7 @@ def settings_of(values: Mapping[str, Any]) -> Settings:
     low, high = RATES
     if not low <= settings.rate <= high:
         raise ValueError(
-            f"The parameter 'rate' must be from {low:g} to {high:g}, and not {settings.rate:g}."
+            f"The parameter 'rate' must be from {low:g} to {high:g}, not {settings.rate:g}."
         )
     return settings
 
@@ -158,4 +158,4 @@ def checked(name: str, value: Any, default: Any) -> Any:
 
 
 def _wrong(name: str, value: Any, wanted: str) -> ValueError:
-    return ValueError(f"The parameter '{name}' must be {wanted}, and not {value!r}.")
+    return ValueError(f"The parameter '{name}' must be {wanted}, not {value!r}.")

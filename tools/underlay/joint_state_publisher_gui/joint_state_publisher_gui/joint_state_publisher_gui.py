@@ -163,5 +163,5 @@ def _page_settings_of(values: Mapping[str, Any]) -> PageSettings:
     token = checked('token', values['token'], '')
     port = checked('port', values['port'], 0.0)
     if not float(port).is_integer():
-        raise ValueError(f"The parameter 'port' must be a whole number, and not {port:g}.")
+        raise ValueError(f"The parameter 'port' must be a whole number, not {port:g}.")
     return PageSettings(host, int(port) or None, token)

@@ -76,11 +76,11 @@ def test_waits_for_a_robot(probe: Probe, programs: Programs) -> None:
         (['/no/arm.urdf'], {}, "The URDF '/no/arm.urdf' cannot be read: No such file"),
         (['a', 'b'], {}, 'joint_state_publisher_gui takes at most one URDF file'),
         ([], {'host': 'here'}, "The host is 'here', but must be an address of this machine"),
-        ([], {'port': '8080.5'}, "The parameter 'port' must be a whole number, and not 8080.5."),
+        ([], {'port': '8080.5'}, "The parameter 'port' must be a whole number, not 8080.5."),
         ([], {'port': '70000'}, 'The port is 70000, but must be from 1 to 65535.'),
-        ([], {'port': 'web'}, "The parameter 'port' must be a number, and not 'web'."),
-        ([], {'own_page': '1'}, "The parameter 'own_page' must be true or false, and not 1."),
-        ([], {'token': '7'}, "The parameter 'token' must be a string, and not 7."),
+        ([], {'port': 'web'}, "The parameter 'port' must be a number, not 'web'."),
+        ([], {'own_page': '1'}, "The parameter 'own_page' must be true or false, not 1."),
+        ([], {'token': '7'}, "The parameter 'token' must be a string, not 7."),
     ],
 )
 def test_cannot_start(programs: Programs, words, parameters, sentence) -> None:

@@ -43,7 +43,7 @@ class Waiting:
         """
         if self._closed:
             return 'The launch ended while a test waited'
-        return f'Waited {timeout:g} s in vain'
+        return f'Timed out after waiting {timeout:g} s'
 
     def wait_until(self, predicate: Callable[[], bool], timeout: float) -> bool:
         """

@@ -15,7 +15,7 @@ from launch import LaunchDescription
 from launch_testing.markers import is_post_shutdown_test, parameter_sets
 from ros_environment.suggestions import did_you_mean
 
-__all__ = ['LoadTestsFromPythonModule', 'TestRun']
+__all__ = ['LoadTestsFromPythonModule', 'TestRun', 'method_name']
 
 _FUNCTION = 'generate_test_description'
 
@@ -210,12 +210,20 @@ def bind(cases: list[unittest.TestCase], injected: Mapping[str, Any]) -> unittes
         original = type(case)
         if original not in classes:
             classes[original] = _subclass(original, injected)
-        suite.addTest(_bound_case(classes[original], _method_name(case), injected))
+        suite.addTest(_bound_case(classes[original], method_name(case), injected))
     return suite
 
 
-def _method_name(case: unittest.TestCase) -> str:
-    """Return the name of the method that a case runs."""
+def method_name(case: unittest.TestCase) -> str:
+    """
+    Return the name of the method that a case runs.
+
+    Parameters
+    ----------
+    case
+        The case; its class may identify it by other names.
+
+    """
     return unittest.TestCase.id(case).removeprefix(f'{strclass(type(case))}.')
 
 

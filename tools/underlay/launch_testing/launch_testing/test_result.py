@@ -7,6 +7,8 @@ import time
 from typing import Any, NamedTuple, Optional
 import unittest
 
+from launch_testing.loader import method_name
+
 PASSED = 'passed'
 FAILED = 'failed'
 ERROR = 'error'
@@ -174,8 +176,8 @@ class TestResult(unittest.TextTestResult):
         return [each for each in self.outcomes if each.outcome in (FAILED, ERROR)]
 
     def _note(self, test: unittest.TestCase, outcome: str, message: str = '') -> None:
-        class_name, name = type(test).__qualname__, getattr(test, '_testMethodName', str(test))
-        if not hasattr(test, '_testMethodName'):
-            class_name = 'unittest'
+        class_name, name = 'unittest', str(test)  # what fails for a whole class is no test case
+        if isinstance(test, unittest.TestCase):
+            class_name, name = type(test).__qualname__, method_name(test)
         duration_s = time.monotonic() - self._started_s
         self.outcomes.append(Outcome(class_name, name, outcome, message, duration_s))

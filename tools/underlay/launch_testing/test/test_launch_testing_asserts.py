@@ -152,9 +152,9 @@ def test_waiting(talker: Any) -> None:
     info.assertWaitForStartup(process='talker', timeout=0.01)
     output.assertWaitFor('one', process=talker, timeout=0.01)
     assert not output.waitFor('two', timeout=0.01)
-    with pytest.raises(AssertionError, match='Waited 0.01 s in vain for the end of talker-1'):
+    with pytest.raises(AssertionError, match='waiting 0.01 s for the end of talker-1'):
         info.assertWaitForShutdown(talker, timeout=0.01)
-    with pytest.raises(AssertionError, match="in vain for the output 'two'.\n.*\n    one"):
+    with pytest.raises(AssertionError, match="waiting 0.01 s for the output 'two'.\n.*\n    one"):
         output.assertWaitFor('two', talker, timeout=0.01)
 
 

@@ -19,7 +19,7 @@ from nav2_behavior_tree.ports import bind, Binding, in_port
 from nav2_behavior_tree.registry import node_type, unknown_type
 from nav2_behavior_tree.scripting import Script
 from nav2_behavior_tree.status import Failure, NodeStatus, StatusChange
-from nav2_behavior_tree.tree_xml import Document, Element, read_tree_file, read_tree_text
+from nav2_behavior_tree.tree_xml import Document, Element, read_tree_text
 from nav2_util.plugins import did_you_mean
 
 __all__ = ['BehaviorTree', 'SubTree']
@@ -65,26 +65,6 @@ class BehaviorTree:
         self.root: TreeNode = _Builder(document, self.context).tree(
             document.main, self.blackboard, ()
         )
-
-    @classmethod
-    def from_file(cls, path: str, now_s: Callable[[], float], ros: Any = None) -> BehaviorTree:
-        """
-        Make the tree of an XML file.
-
-        Parameters
-        ----------
-        path
-            The file.
-        now_s, ros
-            As for the class.
-
-        Raises
-        ------
-        TreeError
-            The file cannot be read, or does not define a valid tree.
-
-        """
-        return cls(read_tree_file(path), now_s, ros)
 
     @classmethod
     def from_text(cls, text: str, now_s: Callable[[], float], ros: Any = None) -> BehaviorTree:

@@ -10,7 +10,7 @@ from nav2_behaviors.behavior_node import BehaviorNode, BehaviorServerParameters,
 from nav2_behaviors.recoveries import BackUp, DriveOnHeading, Spin, Wait
 from nav2_behaviors.timed_behavior import TimedBehavior
 from nav2_util import ConfigurationError
-from nav2_util.plugins import did_you_mean
+from nav2_util.plugins import did_you_mean, plugin_type
 from nav2_util.twist import Velocity
 
 __all__ = ['BehaviorServer', 'behavior_types']
@@ -50,9 +50,8 @@ class BehaviorServer(BehaviorNode):
             )
         super().configure()
         for name in names:
-            kind = self.parameters.declare_value(
-                f'{name}.plugin', DEFAULT_TYPES.get(name, ''), 'The type of the behaviour.'
-            )
+            default = DEFAULT_TYPES.get(name, '')
+            kind = plugin_type(self.parameters, name, 'behaviour', default, behavior_types)
             self.behaviors[name] = _behavior_type(name, kind)(self, name)
 
     def deactivate(self) -> None:
@@ -86,11 +85,6 @@ def _behavior_type(behavior: str, name: str) -> type[TimedBehavior]:
     official = name.replace('/', '::')
     if official in behavior_types:
         return behavior_types[official]
-    if not name:
-        raise ConfigurationError(
-            f"The behaviour '{behavior}' has no type: set the parameter '{behavior}.plugin', "
-            "such as 'nav2_behaviors::Spin'."
-        )
     advice = did_you_mean(official, behavior_types, 0.6)
     raise ConfigurationError(
         f"The parameter '{behavior}.plugin' is '{name}', which is not one of the types "

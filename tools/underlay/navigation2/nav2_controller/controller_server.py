@@ -26,7 +26,7 @@ from nav2_util.errors import ConfigurationError
 from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.odometry import subscribe_velocity
 from nav2_util.parameters import parameter, ParameterSet
-from nav2_util.plugins import find_plugin
+from nav2_util.plugins import find_plugin, plugin_type
 from nav2_util.timing import now_s
 from nav2_util.twist import TwistPublisher
 from rclpy.lifecycle import TransitionCallbackReturn
@@ -273,14 +273,7 @@ class ControllerServer(LifecycleNode):
             raise ConfigurationError(f'There must be at least one {what}.')
         for name in names:
             default = _DEFAULT_KINDS.get(name, '')
-            kind = self.parameters.declare_value(
-                f'{name}.plugin', default, f'The type of the {what}.'
-            )
-            if not kind:
-                raise ConfigurationError(
-                    f"The parameter '{name}.plugin' is not set. It is the type of the {what}: "
-                    f'one of {", ".join(sorted(kinds))}.'
-                )
+            kind = plugin_type(self.parameters, name, what, default, kinds)
             made[name] = find_plugin(kinds, kind, what)(context.named(name))
             self.get_logger().info(f"The {what} '{name}' is {kind}.")
 

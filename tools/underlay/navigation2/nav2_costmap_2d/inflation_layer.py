@@ -25,29 +25,7 @@ import numpy as np
 if TYPE_CHECKING:
     from nav2_costmap_2d.costmap_node import Costmap2DROS
 
-__all__ = ['Inflation', 'InflationLayer', 'InflationParameters', 'decayed_cost']
-
-
-def decayed_cost(distance_m: float, inscribed_radius_m: float, scaling: float) -> int:
-    """
-    Compute the cost at a distance in m from the nearest obstacle.
-
-    Parameters
-    ----------
-    distance_m
-        The distance from the centre of the obstacle's cell.
-    inscribed_radius_m
-        The distance up to which the robot collides.
-    scaling
-        The decay rate beyond it in 1/m: the `cost_scaling_factor`.
-
-    """
-    if distance_m <= 0.0:
-        return LETHAL_OBSTACLE
-    if distance_m <= inscribed_radius_m:
-        return INSCRIBED_INFLATED_OBSTACLE
-    decay = math.exp(-scaling * (distance_m - inscribed_radius_m))
-    return int((INSCRIBED_INFLATED_OBSTACLE - 1) * decay)
+__all__ = ['Inflation', 'InflationLayer', 'InflationParameters']
 
 
 @functools.lru_cache(maxsize=16)

@@ -6,9 +6,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from nav2_costmap_2d.layers import Layer
-from nav2_util.errors import ConfigurationError
 from nav2_util.lifecycle_node import LifecycleNode
-from nav2_util.plugins import find_plugin
+from nav2_util.plugins import find_plugin, plugin_type
 
 __all__ = ['PLUGINS', 'explain_unused', 'make_plugin']
 
@@ -49,14 +48,8 @@ def make_plugin(node: LifecycleNode, name: str) -> Layer:
         There is no such type, or the parameters of the layer are invalid.
 
     """
-    kind = node.parameters.declare_value(
-        f'{name}.plugin', _DEFAULT_TYPES.get(name, ''), 'The type of the layer.'
-    )
-    if not kind:
-        raise ConfigurationError(
-            f"The layer '{name}' has no type. Set the parameter '{name}.plugin', such as to "
-            "'nav2_costmap_2d::ObstacleLayer'."
-        )
+    default = _DEFAULT_TYPES.get(name, '')
+    kind = plugin_type(node.parameters, name, 'layer', default, PLUGINS)
     layer: Layer = find_plugin(PLUGINS, kind, 'costmap layer or filter')(node, name)
     return layer
 

@@ -206,8 +206,8 @@ class StaticLayer(Layer):
         origin = planar_pose(info.origin)
         if abs(origin.yaw) > 1e-3:
             self._node.get_logger().warning(
-                f'The map is rotated by {math.degrees(origin.yaw):.1f} degrees; costmaps take it '
-                'as not rotated.'
+                f'The map is rotated by {math.degrees(origin.yaw):.1f} degrees; costmaps ignore '
+                'the rotation.'
             )
         self._map = Costmap2D(
             info.width,

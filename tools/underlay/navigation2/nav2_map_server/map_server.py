@@ -96,7 +96,7 @@ class MapServer(LifecycleNode):
         if abs(found.origin[2]) > 1e-6:
             self.get_logger().warning(
                 f"The map '{path}' is rotated by {math.degrees(found.origin[2]):.1f} degrees; "
-                'costmaps and localization take it as not rotated. Rotate the image instead.'
+                'costmaps and localization ignore the rotation. Rotate the image instead.'
             )
         return make_grid(found, self._frame, self.get_clock().now().to_msg())
 

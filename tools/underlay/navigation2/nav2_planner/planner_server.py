@@ -27,7 +27,7 @@ from nav2_util.errors import ActionAborted, ConfigurationError
 from nav2_util.geometry import make_path, path_poses, Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.parameters import parameter, ParameterSet
-from nav2_util.plugins import did_you_mean, find_plugin
+from nav2_util.plugins import did_you_mean, find_plugin, plugin_type
 from nav2_util.services import wait_for
 from nav2_util.timing import give_way, now_s
 from nav2_util.transforms import TransformError
@@ -124,15 +124,9 @@ class PlannerServer(LifecycleNode):
             self.costmap.trigger_cleanup()
 
     def _make_planner(self, name: str) -> GlobalPlanner:
-        full = f'{name}.plugin'
-        kind = self.parameters.declare_value(
-            full, _DEFAULT_PLUGINS.get(name, ''), 'The type of the planner.'
+        kind = plugin_type(
+            self.parameters, name, 'planner', _DEFAULT_PLUGINS.get(name, ''), PLANNERS
         )
-        if not kind:
-            raise ConfigurationError(
-                f"The planner '{name}' of planner_plugins has no type. Set the parameter "
-                f"'{full}', for example to 'nav2_navfn_planner::NavfnPlanner'."
-            )
         planner: GlobalPlanner = find_plugin(PLANNERS, kind, 'planner')(self, name, self.costmap)
         self.get_logger().info(f"Made the planner '{name}' of type {kind}.")
         return planner

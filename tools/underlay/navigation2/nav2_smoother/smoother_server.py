@@ -11,11 +11,11 @@ from builtin_interfaces.msg import Duration
 from nav2_msgs.action import SmoothPath
 from nav2_smoother.smoothers import Smoother, SMOOTHERS
 from nav2_smoother.surroundings import Surroundings
-from nav2_util.errors import ActionAborted, ConfigurationError
+from nav2_util.errors import ActionAborted
 from nav2_util.geometry import make_path, path_poses, Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.parameters import parameter, ParameterSet
-from nav2_util.plugins import did_you_mean, find_plugin
+from nav2_util.plugins import did_you_mean, find_plugin, plugin_type
 from nav2_util.transforms import TransformError
 from nav_msgs.msg import Path
 import numpy as np
@@ -84,15 +84,9 @@ class SmootherServer(LifecycleNode):
         self._smoothers.clear()
 
     def _make_smoother(self, name: str) -> Smoother:
-        full = f'{name}.plugin'
-        kind = self.parameters.declare_value(
-            full, _DEFAULT_PLUGINS.get(name, ''), 'The type of the smoother.'
+        kind = plugin_type(
+            self.parameters, name, 'smoother', _DEFAULT_PLUGINS.get(name, ''), SMOOTHERS
         )
-        if not kind:
-            raise ConfigurationError(
-                f"The smoother '{name}' of smoother_plugins has no type. Set the parameter "
-                f"'{full}', for example to 'nav2_smoother::SimpleSmoother'."
-            )
         smoother: Smoother = find_plugin(SMOOTHERS, kind, 'smoother')(self, name)
         self.get_logger().info(f"Made the smoother '{name}' of type {kind}.")
         return smoother

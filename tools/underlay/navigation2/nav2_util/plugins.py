@@ -5,12 +5,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from importlib import import_module
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from nav2_util.errors import ConfigurationError
 from ros_environment import suggestions
 
-__all__ = ['did_you_mean', 'find_plugin']
+if TYPE_CHECKING:
+    from nav2_util.parameters import ParameterServer
+
+__all__ = ['did_you_mean', 'find_plugin', 'plugin_type']
 
 
 def find_plugin(known: Mapping[str, str], name: str, what: str) -> Any:
@@ -41,6 +44,40 @@ def find_plugin(known: Mapping[str, str], name: str, what: str) -> Any:
         )
     module, _, attribute = place.partition(':')
     return getattr(import_module(module), attribute)
+
+
+def plugin_type(
+    parameters: ParameterServer, name: str, what: str, default: str, known: Iterable[str]
+) -> str:
+    """
+    Declare the parameter with the type of a plugin, and read it.
+
+    Parameters
+    ----------
+    parameters
+        The parameters of the server.
+    name
+        The name of the plugin; the parameter is `name.plugin`.
+    what
+        The kind of the plugin, such as 'planner'.
+    default
+        The type if it is not set; '' if it must be set.
+    known
+        The official names of types, for the error message.
+
+    Raises
+    ------
+    ConfigurationError
+        It is not set, and has no default.
+
+    """
+    found = parameters.declare_value(f'{name}.plugin', default, f'The type of the {what}.')
+    if not found:
+        raise ConfigurationError(
+            f"The parameter '{name}.plugin' is not set. It is the type of the {what}: "
+            f'one of {", ".join(sorted(known))}.'
+        )
+    return str(found)
 
 
 def did_you_mean(name: str, known: Iterable[str], cutoff: float = 0.5) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 
 from nav2_util.errors import NavigationError
 from nav2_util.timing import is_of_coroutine
-from rclpy._rclpy_pybind11 import RCLError
+from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
 from rclpy.lifecycle import LifecycleState, TransitionCallbackReturn
 from rclpy.lifecycle import Node as RclpyLifecycleNode
 
@@ -180,7 +180,7 @@ class TransitioningNode(RclpyLifecycleNode):
         """Reject a transition that is invalid in this state; rclpy would end the process."""
         try:
             return self._answer_change(request, response)
-        except RCLError:
+        except _rclpy.RCLError:
             wanted = request.transition.label or request.transition.id
             self.get_logger().error(
                 f"There is no transition '{wanted}' from the state of this node, {self.state}."

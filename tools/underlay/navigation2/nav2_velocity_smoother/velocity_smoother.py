@@ -144,7 +144,7 @@ class VelocitySmoother(LifecycleNode):
             return
         if (new.feedback, new.odom_topic) != (old.feedback, old.odom_topic):
             raise ValueError(
-                'feedback and odom_topic have effect when the node is configured: clean it up, '
+                'feedback and odom_topic take effect when the node is configured: clean it up, '
                 'set them, and configure it again.'
             )
         self._limits = _limits_of(new)

@@ -195,7 +195,8 @@ class InputAtWaypoint:
                 check()
                 if now_s(self._node) >= end_s:
                     raise NavigationError(
-                        f"Nothing came on '{settings.input_topic}' within {settings.timeout:g} s."
+                        f"No message was received on '{settings.input_topic}' within "
+                        f'{settings.timeout:g} s.'
                     )
                 await rate.tick()
 

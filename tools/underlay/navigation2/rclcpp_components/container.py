@@ -16,7 +16,7 @@ from nav2_util.timing import give_way
 from rclcpp_components.registry import ComponentError, find_component
 from rclcpp_components.shared_clock import SharedClock
 import rclpy
-from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import Executor, MultiThreadedExecutor
 from rclpy.logging import LoggingSeverity
 from rclpy.node import Node

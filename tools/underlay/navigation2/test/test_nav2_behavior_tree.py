@@ -16,6 +16,7 @@ from nav2_behavior_tree import (
     TreeNode,
 )
 from nav2_behavior_tree.model import tree_nodes_model
+from nav2_behavior_tree.tree_xml import read_tree_file
 import py_trees
 import pytest
 
@@ -396,7 +397,7 @@ def test_files_may_include_others(tmp_path: Any) -> None:
         '<Sub/></BehaviorTree></root>'
     )
     Actor.notes.clear()
-    tree = BehaviorTree.from_file(str(main), lambda: 0.0)
+    tree = BehaviorTree(read_tree_file(str(main)), lambda: 0.0)
     assert tree.tick() is NodeStatus.SUCCESS and Actor.notes == ['a']
 
 

@@ -15,6 +15,7 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped
 from nav2_behavior_tree import BehaviorTree
 from nav2_behavior_tree.ros_interface import OdometrySmoother, RosInterface
+from nav2_behavior_tree.tree_xml import read_tree_file
 from nav2_bt_navigator import BtNavigator, TREE_FOLDER
 from nav2_msgs.action import NavigateThroughPoses, NavigateToPose
 from nav2_msgs.msg import BehaviorTreeLog
@@ -308,7 +309,7 @@ def test_all_trees_of_the_package_can_be_read(ros: Any) -> None:
     files = glob.glob(os.path.join(TREE_FOLDER, '*.xml'))
     assert len(files) >= 10
     for file in files:
-        BehaviorTree.from_file(file, interface.now_s, interface)
+        BehaviorTree(read_tree_file(file), interface.now_s, interface)
     interface.close()
 
 

@@ -25,7 +25,7 @@ from nav2_costmap_2d.footprint import (
     radii_of,
 )
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_costmap_2d.inflation_layer import decayed_cost, Inflation
+from nav2_costmap_2d.inflation_layer import Inflation
 from nav2_costmap_2d.layers import Layer, LayeredCostmap
 from nav2_costmap_2d.raytracing import clear_rays, mark_points, Observation
 from nav2_costmap_2d.regions import forget_cells, Region, write_maximum, write_over
@@ -149,6 +149,16 @@ def test_what_a_collision_is(cost, is_circular, allow_unknown, collides):
     """A circle collides at its centre's cost, others only with obstacles on the outline."""
     found = is_collision(cost, is_circular=is_circular, allow_unknown=allow_unknown)
     assert found is collides
+
+
+def decayed_cost(distance_m, inscribed_radius_m, scaling):
+    """Return the cost at a distance from the middle of the nearest obstacle's cell."""
+    if distance_m <= 0.0:
+        return LETHAL_OBSTACLE
+    if distance_m <= inscribed_radius_m:
+        return INSCRIBED_INFLATED_OBSTACLE
+    decay = math.exp(-scaling * (distance_m - inscribed_radius_m))
+    return int((INSCRIBED_INFLATED_OBSTACLE - 1) * decay)
 
 
 def test_inflation_is_that_of_the_distance():

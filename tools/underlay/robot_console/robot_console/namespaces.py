@@ -44,7 +44,7 @@ class Namespace(Text):
         """
         text = super().read(value)
         if not VALID.fullmatch(text):
-            raise ValueError(f"must be like 'robot1', and not '{text}'")
+            raise ValueError(f"must be like 'robot1', not '{text}'")
         return text.strip('/')
 
 

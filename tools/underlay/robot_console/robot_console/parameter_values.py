@@ -91,7 +91,7 @@ def _items(text: str) -> list[Any]:
     except yaml.YAMLError:
         items = None
     if not isinstance(items, list) or not all(isinstance(each, str) for each in items):
-        raise ValueError(f'It must be a list such as [1, 2], and not {text!r}.')
+        raise ValueError(f'It must be a list such as [1, 2], not {text!r}.')
     return items
 
 
@@ -99,14 +99,14 @@ def _boolean(text: str) -> bool:
     try:
         return WORDS[text.lower()]
     except KeyError:
-        raise ValueError(f'It must be true or false, and not {text!r}.') from None
+        raise ValueError(f'It must be true or false, not {text!r}.') from None
 
 
 def _integer(text: str) -> int:
     try:
         value = int(text, 0)
     except ValueError:
-        raise ValueError(f'It must be a whole number, and not {text!r}.') from None
+        raise ValueError(f'It must be a whole number, not {text!r}.') from None
     if not -LARGEST <= value < LARGEST:
         raise ValueError(f'{text} is too large: a whole number has 64 bits.')
     return value
@@ -116,13 +116,13 @@ def _double(text: str) -> float:
     try:
         return float(text.replace('.inf', 'inf').replace('.nan', 'nan'))
     except ValueError:
-        raise ValueError(f'It must be a number, and not {text!r}.') from None
+        raise ValueError(f'It must be a number, not {text!r}.') from None
 
 
 def _byte(text: str) -> bytes:
     value = _integer(text)
     if not 0 <= value <= 255:
-        raise ValueError(f'A byte must be from 0 to 255, and not {text}.')
+        raise ValueError(f'A byte must be from 0 to 255, not {text}.')
     return bytes([value])
 
 
@@ -140,12 +140,12 @@ def _checked(value: Any, limits: Limits | None) -> Any:
     if limits is None or isinstance(value, (bool, str, bytes)):
         return value
     if not limits.least <= value <= limits.most:
-        raise ValueError(f'It must be from {limits.least:g} to {limits.most:g}, and not {value}.')
+        raise ValueError(f'It must be from {limits.least:g} to {limits.most:g}, not {value}.')
     if limits.step and value != limits.most:
         steps = (value - limits.least) / limits.step
         if not math.isclose(steps, round(steps), abs_tol=SLACK):
             raise ValueError(
-                f'It must be {limits.least:g} plus steps of {limits.step:g}, and not {value}.'
+                f'It must be {limits.least:g} plus steps of {limits.step:g}, not {value}.'
             )
     return value
 

@@ -116,7 +116,7 @@ def test_parameters(world: LiveWorld, tab: Any) -> None:
     speed = tab.get_by_label('speed')
     speed.fill('fast')
     speed.press('Enter')
-    shows(world, tab, '.note', "must be a number, and not 'fast'")
+    shows(world, tab, '.note', "must be a number, not 'fast'")
     assert speed.input_value() == 'fast'
     speed.press('Escape')
     assert speed.input_value() == '1.5'

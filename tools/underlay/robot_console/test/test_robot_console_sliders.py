@@ -76,7 +76,7 @@ def test_a_slider_moves_its_joint(world: LiveWorld, monkeypatch: pytest.MonkeyPa
 @pytest.mark.parametrize(
     ('asked', 'refusal'),
     [
-        ({'name': 'gone', 'value': 0.0}, 'There is no longer such a slider.'),
+        ({'name': 'gone', 'value': 0.0}, 'This slider no longer exists.'),
         ({'name': 'lift', 'value': 'x'}, "The position of 'lift' must be a number."),
         ({'name': 'lift', 'value': 10**400}, "The position of 'lift' must be a number."),
     ],

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 from rclpy.parameter import Parameter
 from ros_environment.suggestions import did_you_mean
@@ -13,7 +13,13 @@ from urdf import read_urdf_file
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['file_argument', 'parameters_from_file', 'unknown_overrides', 'unknown_parameters']
+__all__ = [
+    'file_argument',
+    'given_parameters',
+    'parameters_from_file',
+    'unknown_overrides',
+    'unknown_parameters',
+]
 
 OF_ROS = ('use_sim_time', 'start_type_description_service', 'qos_overrides.')
 
@@ -96,6 +102,20 @@ def unknown_parameters(
     ]
 
 
+def given_parameters(node: Node) -> dict[str, Any]:
+    """
+    Return the values of the parameter overrides of a node, declared or not, by name.
+
+    Parameters
+    ----------
+    node
+        The node.
+
+    """
+    overrides = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
+    return {name: override.value for name, override in overrides.items()}
+
+
 def unknown_overrides(node: Node) -> list[str]:
     """
     Format a warning for each parameter override that a node has not declared.
@@ -106,5 +126,4 @@ def unknown_overrides(node: Node) -> list[str]:
         The node, once it has declared all its parameters.
 
     """
-    given = getattr(node, '_parameter_overrides', {})  # rclpy has no public API for them
-    return unknown_parameters(given, node.get_parameters_by_prefix('').keys())
+    return unknown_parameters(given_parameters(node), node.get_parameters_by_prefix('').keys())

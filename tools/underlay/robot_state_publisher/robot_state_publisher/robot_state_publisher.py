@@ -13,7 +13,11 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile
 from robot_state_publisher.moving_links import UnusableStateError, usable_positions
-from robot_state_publisher.node_arguments import parameters_from_file, unknown_parameters
+from robot_state_publisher.node_arguments import (
+    given_parameters,
+    parameters_from_file,
+    unknown_parameters,
+)
 from robot_state_publisher.published_robot import PublishedRobot
 from robot_state_publisher.settings import DESCRIPTIONS, Settings
 from sensor_msgs.msg import JointState
@@ -179,9 +183,8 @@ def _declare(node: Node) -> Settings:
 
 
 def _warn_of_unknown(node: Node) -> None:
-    """Log unknown parameters; rclpy has no public API for parameter overrides."""
-    given = getattr(node, '_parameter_overrides', {})
-    for sentence in unknown_parameters(given, DESCRIPTIONS):
+    """Log the parameters that were given but are unknown."""
+    for sentence in unknown_parameters(given_parameters(node), DESCRIPTIONS):
         node.get_logger().warning(sentence)
 
 

@@ -8,6 +8,7 @@ Importing this does not import rclpy.
 from __future__ import annotations
 
 import argparse
+import re
 
 from ros2cli.graph import DEFAULT_SPIN_TIME_S
 
@@ -156,6 +157,29 @@ def add_hidden_argument(parser: argparse.ArgumentParser, what: str) -> None:
         default=argparse.SUPPRESS,
         help=f'Consider hidden {what} as well',
     )
+
+
+def regular_expression(text: str) -> re.Pattern[str]:
+    """
+    Compile a regular expression argument.
+
+    Parameters
+    ----------
+    text
+        The argument text.
+
+    Raises
+    ------
+    argparse.ArgumentTypeError
+        The text is not a regular expression.
+
+    """
+    try:
+        return re.compile(text)
+    except re.error as error:
+        raise argparse.ArgumentTypeError(
+            f'{text!r} is not a regular expression: {error}'
+        ) from error
 
 
 def positive_int(text: str) -> int:

@@ -91,7 +91,7 @@ def test_choices_are_those_of_rclpy() -> None:
         (['--qos-depth', '1000001'], 'a queue of 1000001 messages is too long: at most 1000000'),
         (
             ['--qos-liveliness-lease-duration-seconds', '1e30'],
-            '1e30 seconds are too long: at most 1000000000',
+            '1e30 seconds is too long: at most 1000000000',
         ),
         (['--qos-liveliness-lease-duration-seconds', 'nan'], "'nan' is not a number above zero"),
     ],

@@ -21,10 +21,10 @@ DISPLAY = 'Visualization Manager:\n  Displays:\n    '
     [
         ('Panels: ~\nPanels: ~\n', r"^f:2: 'Panels' is already in line 1"),
         ('Panels:\n\t- a\n', r'^f:2: There is a tab\. Indent with spaces'),
-        ('Panels: 3\n', r"^f:1: 'Panels' must be a list .*, and not '3'"),
-        (f'{DISPLAY}- 3\n', r"^f:3: This must be a mapping .*, and not '3'"),
+        ('Panels: 3\n', r"^f:1: 'Panels' must be a list .*, not '3'"),
+        (f'{DISPLAY}- 3\n', r"^f:3: This must be a mapping .*, not '3'"),
         (f'{DISPLAY}- Name: a\n', r"^f:3: 'Class' is missing"),
-        (f'{DISPLAY}- Class: [a]\n', r"^f:3: 'Class' must be a string, and not a list"),
+        (f'{DISPLAY}- Class: [a]\n', r"^f:3: 'Class' must be a string, not a list"),
         (
             f'{DISPLAY}- Class: rviz_common/Group\n      Displays:\n        - x: 1\n',
             r"^f:5: 'Class' is missing",

@@ -113,7 +113,7 @@ def test_what_cannot_be_used_is_refused_with_a_sentence(context: Context) -> Non
     editor._widgets['Number'].value = 5.0
     editor._take('Number', 5.0, 0.0)
     editor.update()
-    assert context.visualizer.texts == ["'Number' must be from 0 to 1, and not 5.0."]
+    assert context.visualizer.texts == ["'Number' must be from 0 to 1, not 5.0."]
     assert editor._widgets['Number'].value == 0.5
 
 

@@ -56,19 +56,19 @@ def test_read_and_write(kind: Property, given: Any, value: Any, written: Any) ->
 @pytest.mark.parametrize(
     ('kind', 'given', 'reason'),
     [
-        (Flag('', False), 'yes', "must be true or false, and not 'yes'"),
-        (Flag('', False), 1, "must be true or false, and not '1'"),
-        (SIZE, 'big', "must be a number, and not 'big'"),
-        (SIZE, True, "must be a number, and not 'True'"),
+        (Flag('', False), 'yes', "must be true or false, not 'yes'"),
+        (Flag('', False), 1, "must be true or false, not '1'"),
+        (SIZE, 'big', "must be a number, not 'big'"),
+        (SIZE, True, "must be a number, not 'True'"),
         (SIZE, float('nan'), 'must be a number'),
-        (SIZE, -1, 'must be from 0 to 10, and not -1'),
-        (SIZE, float('inf'), 'must be from 0 to 10, and not inf'),
-        (Whole('', 0), 1.5, 'must be a whole number, and not 1.5'),
-        (STYLE, 'Dots', "must be one of Lines, Billboards, and not 'Dots'"),
-        (COLOR, 'red', "must be like '255; 0; 0', and not 'red'"),
+        (SIZE, -1, 'must be from 0 to 10, not -1'),
+        (SIZE, float('inf'), 'must be from 0 to 10, not inf'),
+        (Whole('', 0), 1.5, 'must be a whole number, not 1.5'),
+        (STYLE, 'Dots', "must be one of Lines, Billboards, not 'Dots'"),
+        (COLOR, 'red', "must be like '255; 0; 0', not 'red'"),
         (COLOR, '1; 2', "must be like '255; 0; 0'"),
         (COLOR, '1; 2; 256', 'must have numbers from 0 to 255'),
-        (COLOR, 5, "must be like '255; 0; 0', and not '5'"),
+        (COLOR, 5, "must be like '255; 0; 0', not '5'"),
         (OFFSET, {'X': 'a'}, 'must be three numbers'),
         (OFFSET, (1, 2), 'must be three numbers'),
         (OFFSET, 7, 'must be three numbers'),
@@ -91,7 +91,7 @@ def test_values() -> None:
 def test_refused_values_have_defaults() -> None:
     """A value that cannot be used is named, and the default counts."""
     values = Values((SIZE, COLOR), {'Size': -3, 'Color': '1; 2; 3'})
-    assert values.refusals == ["'Size' must be from 0 to 10, and not -3."]
+    assert values.refusals == ["'Size' must be from 0 to 10, not -3."]
     assert (values['Size'], values['Color']) == (1.0, (1, 2, 3))
 
 

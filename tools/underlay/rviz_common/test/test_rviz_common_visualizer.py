@@ -178,7 +178,7 @@ def test_what_is_unknown_is_said_once(show: Show, node: Node, capfd: Any) -> Non
     assert said.count("class 'a/B'") == 1
     assert "'a/B' (test.rviz:3), 'x' (test.rviz:4) left out" in said
     assert "'p' (test/Probe) does not know 'Foo'" in said
-    assert "'Size' must be from 0 to 10, and not 77" in said
+    assert "'Size' must be from 0 to 10, not 77" in said
 
 
 def test_files_of_rviz_are_shown_and_saved_equal(show: Show, file: Path, tmp_path: Path) -> None:

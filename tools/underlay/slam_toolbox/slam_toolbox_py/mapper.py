@@ -146,23 +146,6 @@ class Mapper:
         self.travelled_m.append(travelled_m)
         self.graph.add_node(pose)
 
-    def pose_at(self, odometry: FloatArray) -> FloatArray:
-        """
-        Convert a pose from the odometry frame to the map.
-
-        Parameters
-        ----------
-        odometry
-            Pose (3,) of the base in the odometry frame.
-
-        Returns
-        -------
-        FloatArray
-            Pose (3,) of the base in the map.
-
-        """
-        return compose(self.map_to_odom, odometry)
-
     def add(self, scan: Scan, odometry: FloatArray, stamp_s: float = 0.0) -> Placement:
         """
         Match a scan, and add it as a keyframe.

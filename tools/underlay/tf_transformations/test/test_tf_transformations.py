@@ -128,7 +128,7 @@ def test_mirrors_scales_and_shears() -> None:
     mirror = tf.reflection_matrix([0, 0, 2.0], [0, 0, 5.0])
     assert mirror @ [1.0, 1.0, 3.0, 1.0] == pytest.approx([1.0, 1.0, 1.0, 1.0])
     assert tf.is_same_transform(mirror, tf.reflection_matrix(*tf.reflection_from_matrix(mirror)))
-    with pytest.raises(ValueError, match='no reflection'):
+    with pytest.raises(ValueError, match='not a reflection'):
         tf.reflection_from_matrix(np.eye(4))
     for origin, direction in ((None, None), ([1, 2, 3], None), ([1, 2, 3], [0, 1, 1])):
         scale = tf.scale_matrix(-1.5, origin, direction)

@@ -140,7 +140,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Array, Array]:
     numbers = np.asarray(matrix, float)
     normal = _eigenvector(numbers[:3, :3], -1.0)
     if normal is None:
-        raise ValueError('The matrix is no reflection: no direction is turned round')
+        raise ValueError('The matrix is not a reflection: it reverses no direction')
     return _fixed_point(numbers), normal
 
 
@@ -197,7 +197,7 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array | None]:
             return factor, _fixed_point(numbers), direction
     factor = float(np.trace(linear)) / 3.0
     if not np.allclose(linear, factor * np.eye(3)):
-        raise ValueError('The matrix is no scale by one factor: use decompose_matrix')
+        raise ValueError('The matrix is not a uniform scaling: use decompose_matrix')
     return factor, _fixed_point(numbers), None
 
 

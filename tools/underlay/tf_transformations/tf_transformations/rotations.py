@@ -43,7 +43,7 @@ def _sequence(axes: Axes) -> str:
     pairs_differ = len(names) == 3 and names[0] != names[1] != names[2]
     if kind not in ('s', 'r') or not pairs_differ or set(names) - set('xyz'):
         raise ValueError(
-            f"'{axes}' are no axes of Euler angles: use s for static or r for rotating axes and "
+            f"'{axes}' are not axes of Euler angles: use s for static or r for rotating axes and "
             'three of x, y and z, such as sxyz, rzyx or szxz'
         )
     return names.upper() if kind == 'r' else names

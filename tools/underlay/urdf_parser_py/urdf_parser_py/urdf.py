@@ -212,7 +212,7 @@ class Robot:
         try:
             element = ElementTree.fromstring(xml_string)
         except ElementTree.ParseError as error:
-            raise ValueError(f'The robot description is no XML: {error}') from None
+            raise ValueError(f'The robot description is not XML: {error}') from None
         return cls.from_xml(element)
 
     @classmethod

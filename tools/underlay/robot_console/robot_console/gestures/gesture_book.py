@@ -105,7 +105,7 @@ class GestureBook:
         """
         is_pose = key.startswith(POSE)
         if self._poses is None or not is_pose or not self._poses.delete(key[len(POSE) :]):
-            raise ValueError('There is no longer such a pose.')
+            raise ValueError('This pose no longer exists.')
 
 
 def _read(file: str) -> tuple[Gesture, ...]:

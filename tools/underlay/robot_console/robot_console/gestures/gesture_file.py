@@ -186,7 +186,7 @@ class _Reader:
         for name, value in content.items():
             if not _is_number(value):
                 raise self._error(
-                    (*place, name), f"{what}: '{name}' must be a number, and not '{value}'"
+                    (*place, name), f"{what}: '{name}' must be a number, not '{value}'"
                 )
         return {name: float(value) for name, value in content.items()}
 
@@ -200,7 +200,7 @@ class _Reader:
     ) -> dict[str, Any]:
         """Check that a value is a mapping with names as keys, of those that are known."""
         if not isinstance(content, dict):
-            raise self._error(place, f'{what} must be a mapping, and not {content!r:.40}')
+            raise self._error(place, f'{what} must be a mapping, not {content!r:.40}')
         for key in content:
             if not isinstance(key, str):
                 raise self._error(place, f"{what}: '{key}' must be a name; put it in quotes")

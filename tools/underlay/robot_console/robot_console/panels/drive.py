@@ -82,11 +82,11 @@ class SpeedLimits:
 def _numbers(given: Any, count: int, least: float) -> list[float]:
     """Validate numbers and clamp them to the range, or raise ValueError."""
     if not isinstance(given, list) or len(given) != count:
-        raise ValueError(f'must be {count} numbers, and not {given}')
+        raise ValueError(f'must be {count} numbers, not {given}')
     for each in given:
         is_number = isinstance(each, (int, float)) and not isinstance(each, bool)
         if not is_number or not -math.inf < each < math.inf:  # a large integer may not fit a float
-            raise ValueError(f'must be finite numbers, and not {given}')
+            raise ValueError(f'must be finite numbers, not {given}')
     return [float(max(least, min(1.0, each))) for each in given]
 
 

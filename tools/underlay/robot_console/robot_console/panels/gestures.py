@@ -200,7 +200,7 @@ class Gestures(LivePanel):
             raise ValueError(f"'{running.gesture.name}' is running. Cancel it first.")
         self._check_person(viewer)
         if not isinstance(button, str) or button not in self._book.gestures:
-            raise ValueError('There is no longer such a gesture.')
+            raise ValueError('This gesture no longer exists.')
         gesture = self._book.gestures[button]
         plan = self._plan(gesture)
         tolerance = self.values['Path Tolerance']

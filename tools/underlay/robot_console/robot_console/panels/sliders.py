@@ -189,7 +189,7 @@ class Sliders(LivePanel):
         """Move a joint to where its slider was dragged."""
         slider = self._known().board.sliders.get(_name(message))
         if slider is None:
-            raise ValueError('There is no longer such a slider.')
+            raise ValueError('This slider no longer exists.')
         value = message.get('value')
         if not isinstance(value, (int, float)) or not -LARGEST <= value <= LARGEST:
             raise ValueError(f"The position of '{slider.name}' must be a number.")

@@ -44,7 +44,7 @@ def test_a_file() -> None:
         ('seconds: 1.5', 'seconds: 0', "g.yaml:9: Step 1 of 'Wave' needs 'seconds'"),
         ('seconds: 1.5', 'seconds: soon', "g.yaml:9: Step 1 of 'Wave' needs 'seconds'"),
         ('seconds: 1.5', 'secs: 1.5', "has an unknown key 'secs'. Did you mean 'seconds'?"),
-        ('shoulder: -1.5', 'shoulder: high', "'shoulder' must be a number, and not 'high'"),
+        ('shoulder: -1.5', 'shoulder: high', "'shoulder' must be a number, not 'high'"),
         ('pitch: 0.4', 'roll: 0.4', "has an unknown key 'roll'. Known are: pitch, height."),
         ('  Bow:', '  Wave:', 'g.yaml:11:'),
         (

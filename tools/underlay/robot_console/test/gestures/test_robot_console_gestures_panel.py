@@ -194,7 +194,7 @@ def test_saved_poses(world: LiveWorld, tmp_path: Path) -> None:
     saved = (tmp_path / 'joint_state_publisher_gui' / 'arm.yaml').read_text()
     assert saved == 'Rest:\n  elbow: 0.1\n'
     page.ask('delete', button=RAISE)
-    page.wait_for('refusal', lambda refusal: 'no longer such a pose' in refusal)
+    page.wait_for('refusal', lambda refusal: 'pose no longer exists' in refusal)
     page.told.clear()
     page.ask('delete', button='pose/Rest')
     page.wait_for('buttons', lambda buttons: set(reasons(buttons)) == {RAISE, BOW})

@@ -18,7 +18,6 @@ __all__ = [
     'add_log_level_argument',
     'count',
     'not_negative',
-    'regular_expression',
 ]
 
 LOG_LEVELS = ('debug', 'info', 'warn', 'error', 'fatal')
@@ -100,29 +99,6 @@ def add_log_level_argument(parser: Any) -> None:
         default='info',
         help='print messages of at least this severity (default: %(default)s)',
     )
-
-
-def regular_expression(text: str) -> re.Pattern[str]:
-    """
-    Compile a regular expression argument.
-
-    Parameters
-    ----------
-    text
-        The argument text.
-
-    Raises
-    ------
-    argparse.ArgumentTypeError
-        The text is not a regular expression.
-
-    """
-    try:
-        return re.compile(text)
-    except re.error as error:
-        raise argparse.ArgumentTypeError(
-            f'{text!r} is not a regular expression: {error}'
-        ) from error
 
 
 def count(text: str) -> int:

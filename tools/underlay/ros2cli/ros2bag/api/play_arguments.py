@@ -10,11 +10,10 @@ from ros2bag.api.common_arguments import (
     add_log_level_argument,
     count,
     not_negative,
-    regular_expression,
     TopicFilter,
 )
 from ros2bag.storage import BagError
-from ros2cli.arguments import positive_number
+from ros2cli.arguments import positive_number, regular_expression
 from ros2cli.names import absolute
 
 __all__ = [
@@ -127,7 +126,9 @@ def bag_paths(args: argparse.Namespace) -> list[str]:
     if path is None and not inputs:
         raise BagError('Name a bag: its folder, or several with -i')
     if path is not None and inputs:
-        raise BagError(f"Name all bags with -i, or one without: '{path}' is a second way")
+        raise BagError(
+            f"Name all bags with -i, or a single one without: not '{path}' and -i together"
+        )
     for bag, *storage in inputs:
         if storage not in ([], ['mcap'], ['sqlite3']):
             raise BagError(

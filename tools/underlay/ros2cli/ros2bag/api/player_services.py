@@ -39,7 +39,7 @@ def offer_player_services(node: Any, player: Player, span: MessageSpan) -> None:
             player.pacing.set_rate(request.rate)
             logger.info(f'Rate: {request.rate:.3g}')
         else:
-            logger.warning(f'A rate of {request.rate:g} is refused: it has to be above zero.')
+            logger.warning(f'A rate of {request.rate:g} is rejected: it must be above zero.')
 
     def play(_: Any, response: Any) -> None:
         response.success = False

@@ -11,10 +11,9 @@ from ros2bag.api.common_arguments import (
     count,
     not_negative,
     Refused,
-    regular_expression,
     TopicFilter,
 )
-from ros2cli.arguments import positive_number
+from ros2cli.arguments import positive_number, regular_expression
 from ros2cli.names import absolute
 
 __all__ = ['add_record_arguments', 'compression_of', 'filter_of', 'output_folder', 'usage_error']

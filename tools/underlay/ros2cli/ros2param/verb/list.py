@@ -4,10 +4,10 @@
 from __future__ import annotations
 
 import argparse
-import re
 import sys
 from typing import Any
 
+from ros2cli.arguments import regular_expression
 from ros2node.api import nodes_with_service
 from ros2param.api import (
     add_node_name_argument,
@@ -84,19 +84,10 @@ def _add_list_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         '--filter',
-        type=_regular_expression,
+        type=regular_expression,
         metavar='REGEX',
         help='Only list parameters matching the provided regex',
     )
-
-
-def _regular_expression(text: str) -> re.Pattern[str]:
-    try:
-        return re.compile(text)
-    except re.error as error:
-        raise argparse.ArgumentTypeError(
-            f'{text!r} is not a regular expression: {error}'
-        ) from error
 
 
 def _print_all(node: Any, args: argparse.Namespace) -> None:

@@ -186,6 +186,6 @@ def _lease_duration(text: str) -> float:
     duration_s = positive_number(text)
     if duration_s > LONGEST_LEASE_S:
         raise argparse.ArgumentTypeError(
-            f'{text} seconds are too long: at most {LONGEST_LEASE_S:.0f}'
+            f'{text} seconds is too long: at most {LONGEST_LEASE_S:.0f}'
         )
     return duration_s

@@ -221,7 +221,7 @@ class Configuration:
         if value is None:
             reason = f'{subject} is missing, but must be {KINDS[kind]}.'
         else:
-            reason = f'{subject} must be {KINDS[kind]}, and not {_shown(value)}.'
+            reason = f'{subject} must be {KINDS[kind]}, not {_shown(value)}.'
         raise ConfigError(self.document.source, self.document.line(place), reason)
 
 

@@ -109,7 +109,8 @@ class Admission:
             return Refusal(HTTPStatus.BAD_REQUEST, 'This is not a valid address.')
         if origin is not None and urlsplit(origin).netloc != host:
             return Refusal(
-                HTTPStatus.FORBIDDEN, f'Pages of {origin} may not use this one, which is {host}.'
+                HTTPStatus.FORBIDDEN,
+                f'Pages of {origin} may not use this page, which is at {host}.',
             )
         if not self.token:
             return self._refusal_of_name(host)
@@ -124,8 +125,7 @@ class Admission:
         if not secrets.compare_digest(given.encode(), self.token.encode()):
             return Refusal(
                 HTTPStatus.FORBIDDEN,
-                'The token is not that of this page. Open the address that was printed at the '
-                'last start.',
+                'The token is wrong. Open the address that was printed at the last start.',
                 wants_token=True,
             )
         return None

@@ -46,7 +46,7 @@ def complain_about_task(loop: asyncio.AbstractEventLoop, about: dict[str, Any]) 
     """
     error = about.get('exception')
     said = described_error(error) if isinstance(error, Exception) else about.get('message', '')
-    complain(f'A message of a browser failed: {said}')
+    complain(f'A message from a browser could not be handled: {said}')
 
 
 def _shorten(record: logging.LogRecord) -> bool:

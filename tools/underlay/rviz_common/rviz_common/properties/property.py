@@ -43,7 +43,7 @@ class Property:
         ------
         ValueError
             The value is invalid. The message continues after the name of the property, such as
-            "must be a number, and not 'x'".
+            "must be a number, not 'x'".
 
         """
         return value
@@ -81,7 +81,7 @@ class Flag(Property):
 
         """
         if not isinstance(value, bool):
-            raise ValueError(f"must be true or false, and not '{value}'")
+            raise ValueError(f"must be true or false, not '{value}'")
         return value
 
 
@@ -105,7 +105,7 @@ class Flags(Property):
 
         """
         if not isinstance(value, dict):
-            raise ValueError(f"must be true or false for each of some names, and not '{value}'")
+            raise ValueError(f"must be true or false for each of some names, not '{value}'")
         flag = Flag('', True)
         return {str(name): flag.read(each) for name, each in value.items()}
 
@@ -133,9 +133,9 @@ class Number(Property):
 
         """
         if isinstance(value, bool) or not isinstance(value, (int, float)) or value != value:
-            raise ValueError(f"must be a number, and not '{value}'")
+            raise ValueError(f"must be a number, not '{value}'")
         if not self.minimum <= value <= self.maximum:
-            raise ValueError(f'must be from {self.minimum:g} to {self.maximum:g}, and not {value}')
+            raise ValueError(f'must be from {self.minimum:g} to {self.maximum:g}, not {value}')
         return float(value)
 
     def write(self, value: Any) -> Any:
@@ -172,7 +172,7 @@ class Whole(Number):
         """
         number = super().read(value)
         if not number.is_integer():
-            raise ValueError(f'must be a whole number, and not {value}')
+            raise ValueError(f'must be a whole number, not {value}')
         return int(number)
 
 
@@ -227,7 +227,7 @@ class Choice(Text):
 
         """
         if value not in self.choices:
-            raise ValueError(f"must be one of {', '.join(self.choices)}, and not '{value}'")
+            raise ValueError(f"must be one of {', '.join(self.choices)}, not '{value}'")
         return str(value)
 
 
@@ -259,9 +259,9 @@ class ColorOf(Property):
             words = value.split(';') if isinstance(value, str) else value
             red, green, blue = (int(word) for word in words)
         except (TypeError, ValueError):
-            raise ValueError(f"must be like '255; 0; 0', and not '{value}'") from None
+            raise ValueError(f"must be like '255; 0; 0', not '{value}'") from None
         if not all(0 <= part <= 255 for part in (red, green, blue)):
-            raise ValueError(f"must have numbers from 0 to 255, and not '{value}'")
+            raise ValueError(f"must have numbers from 0 to 255, not '{value}'")
         return red, green, blue
 
     def write(self, value: Any) -> str:
@@ -305,9 +305,9 @@ class Vector(Property):
         try:
             x, y, z = (float(part) for part in parts)
         except (TypeError, ValueError):
-            raise ValueError(f"must be three numbers, and not '{value}'") from None
+            raise ValueError(f"must be three numbers, not '{value}'") from None
         if not all(map(math.isfinite, (x, y, z))):
-            raise ValueError(f"must be three finite numbers, and not '{value}'")
+            raise ValueError(f"must be three finite numbers, not '{value}'")
         return x, y, z
 
     def write(self, value: Any) -> dict[str, Any]:

@@ -101,7 +101,7 @@ class FrameLoop:
             self.attend()
             self.queue.run()
         except Exception as error:  # a failing widget must not stop anything else
-            self._logger.error(f'An input failed: {described_error(error)}')
+            self._logger.error(f'An input could not be handled: {described_error(error)}')
             self.rouse()  # for the remaining work
 
 
