@@ -2,11 +2,9 @@
 """
 Convert `sensor_msgs/Image` messages to arrays and back, without a copy where possible.
 
-`cv_bridge` does not serve here. That of Jazzy assumes that the bytes of a row are a whole number
-of pixels: an `rgb8` image that is 638 pixels wide, with rows aligned to 4 bytes, comes out skewed.
-A message whose size does not match its data is an error of NumPy there, which does not say that
-the camera driver is wrong. And `8UC1` and `8UC3`, OpenCV's names of grey and BGR images, are no
-colours to it, so the detector would reject cameras that publish them.
+`cv_bridge` does not serve here: `8UC1` and `8UC3`, OpenCV's names of grey and BGR images, have no
+colours for it, so that the detector would reject cameras that publish them; and what is wrong with
+a message whose size does not match its data is told here in a sentence.
 """
 
 from __future__ import annotations

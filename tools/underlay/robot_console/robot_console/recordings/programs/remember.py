@@ -12,10 +12,11 @@ import time
 from typing import Any, cast
 
 from robot_console.recordings.child import Lifeline, tell
-from ros2bag.api.common_arguments import regular_expression, TopicFilter
+from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.api.control import PauseSwitch, StopSignals
 from ros2bag.api.recorder import Recorder
 from ros2bag.api.recording import find_definition
+from ros2cli.arguments import regular_expression
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition
