@@ -146,7 +146,7 @@ class NavigationNode(LifecycleNode):
         self.inhibition = message.data
 
     def _keep_odometry(self, stamp_s: float, velocity: Velocity) -> None:
-        self._odometry.add(stamp_s, velocity.x, velocity.yaw)
+        self._odometry.add(stamp_s, velocity.x, velocity.yaw, velocity.y)
 
 
 class TreeLog:
