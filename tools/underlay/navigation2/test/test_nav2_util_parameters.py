@@ -185,8 +185,8 @@ def test_unknown_and_unsupported_are_said_once(made, capfd):
     server.report()
     assert _said(capfd) == [
         "There is no parameter 'colour'. It has no effect.",
-        "The parameter 'p.old' has no effect: there is a better way.",
         "There is no parameter 'rte'. Did you mean 'rate'?",
+        "The parameter 'p.old' has no effect: there is a better way.",
     ]
     server.report()
     assert _said(capfd) == []
