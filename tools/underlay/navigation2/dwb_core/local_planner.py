@@ -33,7 +33,7 @@ from nav2_controller.control import (
 from nav2_controller.plugins import PluginContext
 from nav2_controller.tracking import path_lengths
 from nav2_util.errors import ConfigurationError
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 from nav2_util.plugins import did_you_mean
 import numpy as np
 
@@ -54,21 +54,35 @@ _CRITICS: dict[str, type[Critic]] = {
 """The critics by their official names."""
 _UNSUPPORTED = {
     'goal_checker_name': 'the goal checkers of the controller server are used',
-    'publish_evaluation': 'scores are not published',
-    'publish_cost_grid_pc': 'the grids of critics are not published',
-    'publish_input_params': 'they are not published',
-    'publish_trajectories': "trajectories are published on 'marker' when somebody listens",
-    'publish_global_plan': "'received_global_plan' is published when somebody listens",
-    'publish_transformed_plan': "'transformed_global_plan' is published when somebody listens",
-    'publish_local_plan': "'local_plan' is published when somebody listens",
-    'marker_lifetime': 'trajectories are shown until the next ones',
-    'prune_plan': 'what was passed of the path is always left out',
+    'publish_evaluation': Unsupported('scores are not published', (True, False)),
+    'publish_cost_grid_pc': Unsupported('the grids of critics are not published', (False,)),
+    'publish_input_params': Unsupported('they are not published', (True, False)),
+    'publish_trajectories': Unsupported(
+        "trajectories are published on 'marker' when somebody listens", (True,)
+    ),
+    'publish_global_plan': Unsupported(
+        "'received_global_plan' is published when somebody listens", (True,)
+    ),
+    'publish_transformed_plan': Unsupported(
+        "'transformed_global_plan' is published when somebody listens", (True,)
+    ),
+    'publish_local_plan': Unsupported("'local_plan' is published when somebody listens", (True,)),
+    'marker_lifetime': Unsupported('trajectories are shown until the next ones', (0.1,)),
+    'prune_plan': Unsupported('what was passed of the path is always left out', (True,)),
+    'stateful': Unsupported('the goal checker has this parameter'),
+    'xy_goal_tolerance': Unsupported('the critic RotateToGoal, which uses it, is not in critics'),
+    'trans_stopped_velocity': Unsupported(
+        'the critic RotateToGoal, which uses it, is not in critics'
+    ),
+    'limit_vel_cmd_in_traj': Unsupported('trajectories start at the measured velocity', (False,)),
     'path_distance_bias': 'set PathAlign.scale and PathDist.scale',
     'goal_distance_bias': 'set GoalAlign.scale and GoalDist.scale',
     'occdist_scale': 'set BaseObstacle.scale or ObstacleFootprint.scale',
     'max_scaling_factor': 'the footprint keeps its size at any speed',
     'scaling_speed': 'the footprint keeps its size at any speed',
-    'prune_distance': 'the path is followed from the pose nearest to the robot',
+    'prune_distance': Unsupported(
+        'the path is followed from the pose nearest to the robot', (1.0, 2.0)
+    ),
 }
 
 

@@ -10,7 +10,7 @@ from nav2_controller.control import Velocity
 from nav2_controller.plugins import PluginContext
 from nav2_util.errors import ConfigurationError
 from nav2_util.geometry import Pose2D
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 import numpy as np
 import numpy.typing as npt
 
@@ -26,9 +26,10 @@ Floats = npt.NDArray[np.float32]
 
 _MOST_POINTS = 24
 _UNSUPPORTED = {
-    'angular_granularity': (
+    'angular_granularity': Unsupported(
         'all trajectories have the same number of points, by linear_granularity, at most '
-        f'{_MOST_POINTS}'
+        f'{_MOST_POINTS}',
+        (0.025,),
     ),
 }
 

@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 from geometry_msgs.msg import PoseWithCovarianceStamped
-from nav2_amcl.amcl_parameters import AmclParameters, settings_of, UNSUPPORTED
+from nav2_amcl.amcl_parameters import AmclParameters, settings_of
 from nav2_amcl.clusters import Cluster
 from nav2_amcl.conversions import (
     cloud_bytes,
@@ -67,7 +67,6 @@ class AmclNode(LifecycleNode):
 
     def configure(self) -> None:
         """Create the localizer, topics and services."""
-        self.parameters.declare_unsupported(UNSUPPORTED)
         self._config = self.parameters.declare(AmclParameters)
         values = self._config.current
         try:

@@ -11,16 +11,10 @@ from nav2_amcl.motion_models import MOTION_MODELS, MotionNoise
 from nav2_amcl.particle_filter import FilterOptions
 from nav2_util.parameters import parameter
 
-__all__ = ['UNSUPPORTED', 'AmclParameters', 'settings_of']
+__all__ = ['AmclParameters', 'settings_of']
 
 _FREE_CELL_STEP = 4
 _BEAM_GLOBAL_FACTOR = 2
-
-UNSUPPORTED = {
-    'allow_parameter_qos_overrides': 'the QoS of topics is fixed',
-    'service_introspection_mode': 'services publish no introspection events',
-    'introspection_mode': 'services publish no introspection events',
-}
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass
+import math
 import time
 from typing import Any
 
@@ -203,6 +204,10 @@ class RosInterface:
         """Return the forward velocity of the robot."""
         return self._odometry.velocity[0]
 
+    def motion(self) -> float:
+        """Return the speed of the robot in m/s, or its yaw rate in rad/s if that is more."""
+        return self._odometry.motion
+
     def acceleration_m_s2(self) -> float:
         """Return the forward acceleration of the robot."""
         return self._odometry.acceleration_m_s2
@@ -245,9 +250,9 @@ class OdometrySmoother:
 
     def __init__(self, duration_s: float) -> None:
         self._duration_s = duration_s
-        self._samples: deque[tuple[float, float, float]] = deque()
+        self._samples: deque[tuple[float, float, float, float]] = deque()
 
-    def add(self, time_s: float, x_m_s: float, yaw_rad_s: float) -> None:
+    def add(self, time_s: float, x_m_s: float, yaw_rad_s: float, y_m_s: float = 0.0) -> None:
         """
         Add a sample; drop samples older than the duration, or all if time jumps back.
 
@@ -259,24 +264,29 @@ class OdometrySmoother:
             The forward velocity in m/s.
         yaw_rad_s
             The yaw rate in rad/s.
+        y_m_s
+            The velocity to the left in m/s.
 
         """
         if self._samples and time_s < self._samples[-1][0]:
             self._samples.clear()
-        self._samples.append((time_s, x_m_s, yaw_rad_s))
+        self._samples.append((time_s, x_m_s, yaw_rad_s, y_m_s))
         while self._samples[0][0] < time_s - self._duration_s:
             self._samples.popleft()
 
     @property
     def velocity(self) -> tuple[float, float]:
         """Forward velocity in m/s and yaw rate in rad/s; 0 if no sample is available."""
+        return self._mean(1), self._mean(2)
+
+    @property
+    def motion(self) -> float:
+        """Speed in m/s, or yaw rate in rad/s if that is more; 0 if no sample is available."""
+        return max(math.hypot(self._mean(1), self._mean(3)), abs(self._mean(2)))
+
+    def _mean(self, index: int) -> float:
         count = len(self._samples)
-        if not count:
-            return 0.0, 0.0
-        return (
-            sum(sample[1] for sample in self._samples) / count,
-            sum(sample[2] for sample in self._samples) / count,
-        )
+        return sum(sample[index] for sample in self._samples) / count if count else 0.0
 
     @property
     def acceleration_m_s2(self) -> float:

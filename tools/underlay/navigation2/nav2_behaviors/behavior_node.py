@@ -8,6 +8,7 @@ from typing import Any
 
 from nav2_behaviors.collision_checker import CollisionChecker
 from nav2_util import LifecycleNode, parameter, ParameterSet
+from nav2_util.parameters import Unsupported
 from nav2_util.twist import TwistPublisher
 
 __all__ = ['DEFAULT_TYPES', 'BehaviorNode', 'BehaviorServerParameters']
@@ -78,6 +79,9 @@ class BehaviorNode(LifecycleNode):
     def configure(self) -> None:
         """Read the parameters; create what behaviours share."""
         self.told = self.parameters.declare(BehaviorServerParameters)
+        self.parameters.declare_unsupported(
+            {'transform_timeout': Unsupported('the newest transform is used')}
+        )
         told = self.told.current
         self.velocities = TwistPublisher(
             self, 'cmd_vel', told.enable_stamped_cmd_vel, told.robot_base_frame

@@ -12,7 +12,7 @@ from nav2_bt_navigator.tree_files import TreeFiles
 from nav2_msgs.msg import BehaviorTreeLog, BehaviorTreeStatusChange
 from nav2_util import LifecycleNode
 from nav2_util.odometry import subscribe_velocity
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 from nav2_util.qos import LATCHED
 from nav2_util.twist import Velocity
 from rclpy.qos import qos_profile_sensor_data
@@ -21,16 +21,13 @@ from std_msgs.msg import String
 
 __all__ = ['UNSUPPORTED', 'BtNavigatorParameters', 'NavigationNode', 'TreeLog']
 
+_NO_GROOT = 'Groot cannot connect; subscribe to behavior_tree_log instead'
 UNSUPPORTED = {
-    'default_cancel_timeout': 'canceling does not wait for the servers',
-    'bond_heartbeat_period': 'the lifecycle manager polls the state of the node instead',
-    'service_introspection_mode': 'services are not introspected',
-    'introspection_mode': 'services are not introspected',
-    'allow_parameter_qos_overrides': 'QoS is fixed',
-    'enable_groot_monitoring': 'Groot cannot connect; subscribe to behavior_tree_log instead',
-    'groot_server_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
-    'groot_zmq_publisher_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
-    'groot_zmq_server_port': 'Groot cannot connect; subscribe to behavior_tree_log instead',
+    'default_cancel_timeout': Unsupported('canceling does not wait for the servers', (50,)),
+    'enable_groot_monitoring': Unsupported(_NO_GROOT, (False,)),
+    'groot_server_port': Unsupported(_NO_GROOT),
+    'groot_zmq_publisher_port': Unsupported(_NO_GROOT),
+    'groot_zmq_server_port': Unsupported(_NO_GROOT),
     'bt_search_directories': 'trees are named by their files',
 }
 """The parameters of Nav2 that have no effect, and what happens instead."""
@@ -149,7 +146,7 @@ class NavigationNode(LifecycleNode):
         self.inhibition = message.data
 
     def _keep_odometry(self, stamp_s: float, velocity: Velocity) -> None:
-        self._odometry.add(stamp_s, velocity.x, velocity.yaw)
+        self._odometry.add(stamp_s, velocity.x, velocity.yaw, velocity.y)
 
 
 class TreeLog:

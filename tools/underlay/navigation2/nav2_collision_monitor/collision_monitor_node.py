@@ -15,6 +15,7 @@ from nav2_collision_monitor.sources import Sources
 from nav2_msgs.msg import CollisionMonitorState
 from nav2_msgs.srv import Toggle
 from nav2_util import LifecycleNode, ParameterSet
+from nav2_util.parameters import Unsupported
 from nav2_util.timing import now_s
 from nav2_util.twist import subscribe_twist, TwistPublisher, Velocity
 import numpy as np
@@ -61,7 +62,11 @@ class CollisionMonitor(LifecycleNode):
     def configure(self) -> None:
         """Read the parameters; create zones, sensors, publishers and the service."""
         self.parameters.declare_unsupported(
-            {'use_realtime_priority': 'Python has no threads of real-time priority'}
+            {
+                'use_realtime_priority': Unsupported(
+                    'Python has no threads of real-time priority', (False,)
+                )
+            }
         )
         self._told = self.parameters.declare(CollisionMonitorParameters)
         current = self._told.current

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from nav2_controller.control import Velocity
 from nav2_util.geometry import angle_between, Pose2D
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 
 if TYPE_CHECKING:
     from nav2_controller.plugins import PluginContext
@@ -25,8 +25,12 @@ __all__ = [
 ]
 
 _LATER = {
-    'path_length_tolerance': 'the goal counts as reached wherever on the path the robot is',
-    'symmetric_yaw_tolerance': 'only the orientation of the goal itself counts',
+    'path_length_tolerance': Unsupported(
+        'the goal counts as reached wherever on the path the robot is', (1.0,)
+    ),
+    'symmetric_yaw_tolerance': Unsupported(
+        'only the orientation of the goal itself counts', (False,)
+    ),
     'xy_goal_tolerance_buffer': 'a position that was reached stays so until a new goal',
 }
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import math
 from typing import Any, Protocol, TypeVar
 
-from nav2_util.parameters import ParameterSet
+from nav2_util.parameters import ParameterSet, Unsupported
 
 __all__ = [
     'CONTROLLERS',
@@ -80,14 +80,17 @@ class ParameterSource(Protocol):
 
         """
 
-    def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
+    def declare_unsupported(
+        self, names: Mapping[str, str | Unsupported], prefix: str = ''
+    ) -> None:
         """
         Declare unsupported parameters, to warn if they are set.
 
         Parameters
         ----------
         names
-            Their names, and what happens instead, as the end of a sentence.
+            Their names, and what happens instead, as the end of a sentence, or with the values
+            that need no warning.
         prefix
             The prefix of their names, without the dot.
 
@@ -141,14 +144,15 @@ class PluginContext:
         """
         return self.source.declare_value(f'{self.name}.{name}', default, description)
 
-    def unsupported(self, names: Mapping[str, str], below: str = '') -> None:
+    def unsupported(self, names: Mapping[str, str | Unsupported], below: str = '') -> None:
         """
         Declare unsupported parameters of the plugin, to warn if they are set.
 
         Parameters
         ----------
         names
-            Their names, and what happens instead, as the end of a sentence.
+            Their names, and what happens instead, as the end of a sentence, or with the values
+            that need no warning.
         below
             A second prefix, after the name of the plugin.
 

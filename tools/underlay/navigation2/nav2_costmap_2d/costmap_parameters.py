@@ -8,14 +8,18 @@ from dataclasses import dataclass
 from nav2_costmap_2d.footprint import Footprint, parse_footprint
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_util.errors import ConfigurationError
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 
 __all__ = ['UNSUPPORTED', 'CostmapParameters', 'footprint_of', 'grid_of']
 
 UNSUPPORTED = {
-    'clearable_layers': 'services clear all layers that remember what sensors saw',
-    'introspection_mode': 'services are not introspected',
-    'allow_parameter_qos_overrides': 'the QoS of topics is fixed',
+    'clearable_layers': Unsupported(
+        'services clear all layers that remember what sensors saw',
+        (['obstacle_layer'], ['obstacle_layer', 'voxel_layer', 'range_layer']),
+    ),
+    'observation_sources': Unsupported(
+        'each layer has its own parameter observation_sources', ('',)
+    ),
 }
 """The parameters of Nav2 that have no effect, and what happens instead."""
 

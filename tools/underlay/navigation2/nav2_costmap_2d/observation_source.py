@@ -10,7 +10,7 @@ from typing import Any, TYPE_CHECKING
 from nav2_costmap_2d.raytracing import Observation
 from nav2_costmap_2d.sensor_messages import cloud_points, observation_of, scan_points
 from nav2_util.errors import ConfigurationError
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 from nav2_util.timing import now_s
 from rclpy.qos import qos_profile_sensor_data
 from rclpy.time import Time
@@ -78,7 +78,8 @@ class ObservationSource:
         self._node, self._name = node, name
         self._settings = node.parameters.declare(SourceParameters, f'{layer}.{name}')
         node.parameters.declare_unsupported(
-            {'transport_type': 'point clouds are received as they are'}, f'{layer}.{name}'
+            {'transport_type': Unsupported('point clouds are received as they are', ('raw',))},
+            f'{layer}.{name}',
         )
         values = self._settings.current
         if values.min_obstacle_height > values.max_obstacle_height:

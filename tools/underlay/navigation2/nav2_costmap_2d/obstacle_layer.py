@@ -14,7 +14,7 @@ from nav2_costmap_2d.observation_source import ObservationSource
 from nav2_costmap_2d.raytracing import clear_rays, mark_points
 from nav2_costmap_2d.regions import forget_cells, Region, write_maximum, write_over
 from nav2_util.geometry import Pose2D
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 import numpy as np
 
 if TYPE_CHECKING:
@@ -79,7 +79,12 @@ class ObstacleLayer(Layer):
         self._settings = node.parameters.declare(self.parameters_kind, name)
         self._settings.on_change = lambda _: node.touch()
         node.parameters.declare_unsupported(
-            {'tf_filter_tolerance': 'messages wait until the pose of their sensor is known'}, name
+            {
+                'tf_filter_tolerance': Unsupported(
+                    'messages wait until the pose of their sensor is known', (0.05,)
+                )
+            },
+            name,
         )
         self._default = NO_INFORMATION if node.tracks_unknown else FREE_SPACE
         self._grid = node.grid
@@ -241,9 +246,13 @@ class VoxelLayer(ObstacleLayer):
         super().__init__(node, name)
         node.parameters.declare_unsupported(
             {
-                'publish_voxel_map': 'the layer keeps columns and no voxels, so that '
-                "'voxel_grid' is not published",
-                'unknown_threshold': 'a column is known as soon as a ray crosses it',
+                'publish_voxel_map': Unsupported(
+                    "the layer keeps columns and no voxels, so that 'voxel_grid' is not published",
+                    (False,),
+                ),
+                'unknown_threshold': Unsupported(
+                    'a column is known as soon as a ray crosses it', (15,)
+                ),
             },
             name,
         )

@@ -13,7 +13,7 @@ from nav2_costmap_2d.layers import Layer
 from nav2_costmap_2d.regions import Region, write_maximum
 from nav2_costmap_2d.sensor_messages import rotation_of
 from nav2_util.geometry import Pose2D
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 from nav2_util.timing import now_s
 import numpy as np
 import numpy.typing as npt
@@ -120,7 +120,12 @@ class RangeSensorLayer(Layer):
         self._settings = node.parameters.declare(RangeParameters, name)
         self._settings.on_change = lambda _: node.touch()
         node.parameters.declare_unsupported(
-            {'phi': 'the certainty falls with the square of the angle to the axis of the cone'},
+            {
+                'phi': Unsupported(
+                    'the certainty falls with the square of the angle to the axis of the cone',
+                    (1.2,),
+                )
+            },
             name,
         )
         self._grid = node.grid

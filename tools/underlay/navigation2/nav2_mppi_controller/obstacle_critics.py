@@ -14,7 +14,7 @@ from nav2_costmap_2d.costs import (
 )
 from nav2_mppi_controller.critics import Critic, CriticParameters, powered
 from nav2_mppi_controller.scene import Scene
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 import numpy as np
 import numpy.typing as npt
 
@@ -22,7 +22,9 @@ __all__ = ['CostCritic', 'ObstaclesCritic']
 
 Floats = npt.NDArray[np.float32]
 
-_UNSUPPORTED = {'inflation_layer_name': 'the costs of the local costmap count as they are'}
+_UNSUPPORTED = {
+    'inflation_layer_name': Unsupported('the costs of the local costmap count as they are', ('',))
+}
 
 
 @dataclass(frozen=True)

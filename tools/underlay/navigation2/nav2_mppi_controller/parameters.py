@@ -5,16 +5,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 
 __all__ = ['UNSUPPORTED', 'MppiParameters']
 
 UNSUPPORTED = {
-    'publish_optimal_trajectory': "the best trajectory is published on 'local_plan'",
-    'publish_critics_stats': 'the scores of critics are not published',
-    'dump_parameters': 'use ros2 param dump',
-    'verbose': 'the log levels of the node hold',
-    'open_loop': 'the measured velocity is where trajectories start',
+    'publish_optimal_trajectory': Unsupported(
+        "the best trajectory is published on 'local_plan'", (False,)
+    ),
+    'publish_critics_stats': Unsupported('the scores of critics are not published', (False,)),
+    'dump_parameters': Unsupported('use ros2 param dump', (False,)),
+    'verbose': Unsupported('the log levels of the node hold', (False,)),
+    'open_loop': Unsupported('the measured velocity is where trajectories start', (False,)),
 }
 
 

@@ -22,7 +22,9 @@ ResultT = TypeVar('ResultT')
 PLANNERS = {
     'nav2_navfn_planner::NavfnPlanner': 'nav2_navfn_planner.navfn_planner:NavfnPlanner',
     'nav2_smac_planner::SmacPlanner2D': 'nav2_smac_planner.smac_planner_2d:SmacPlanner2D',
-    'nav2_smac_planner::SmacPlannerHybrid': 'nav2_smac_planner.planar:SmacPlannerHybrid',
+    'nav2_smac_planner::SmacPlannerHybrid': (
+        'nav2_smac_planner.smac_planner_hybrid:SmacPlannerHybrid'
+    ),
     'nav2_smac_planner::SmacPlannerLattice': 'nav2_smac_planner.planar:SmacPlannerLattice',
     'nav2_theta_star_planner::ThetaStarPlanner': (
         'nav2_theta_star_planner.theta_star_planner:ThetaStarPlanner'

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nav2_util.parameters import parameter
+from nav2_util.parameters import parameter, Unsupported
 
 __all__ = ['UNSUPPORTED', 'RppParameters']
 
@@ -14,7 +14,9 @@ UNSUPPORTED = {
         'collisions are checked as far ahead as max_allowed_time_to_collision_up_to_carrot says'
     ),
     'use_path_aware_obstacle_distance': "the cost at the robot's place counts",
-    'stateful': 'as always, the position once reached counts while the robot turns to the goal',
+    'stateful': Unsupported(
+        'as always, the position once reached counts while the robot turns to the goal', (True,)
+    ),
     'goal_dist_tol': 'the tolerance is that of the goal checker',
     'max_linear_accel': 'accelerations are limited by the velocity smoother',
     'max_linear_decel': 'accelerations are limited by the velocity smoother',

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""SmacPlannerHybrid and SmacPlannerLattice for an omnidirectional robot: search in the plane."""
+"""SmacPlannerLattice for an omnidirectional robot: search in the plane."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from nav2_util.parameters import parameter
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['PlanarPlanner', 'PlanarSettings', 'SmacPlannerHybrid', 'SmacPlannerLattice']
+__all__ = ['PlanarPlanner', 'PlanarSettings', 'SmacPlannerLattice']
 
 _SEARCH = 'the search is in the plane and not in poses, as this robot goes in any direction'
 _TURNING_RADIUS_M = 0.4
@@ -134,96 +134,6 @@ class PlanarPlanner(GlobalPlanner):
             poses[:, :2], poses[:, 2], start.yaw, goal.yaw, values.turning_radius_m
         )
         return poses
-
-
-@dataclass(frozen=True)
-class HybridParameters:
-    """The parameters of Hybrid-A* that apply to an omnidirectional robot."""
-
-    tolerance: float = parameter(
-        0.25, 'How far from a goal that cannot be reached the path may end, in m.', low=0.0
-    )
-    downsample_costmap: bool = parameter(
-        False, 'Whether to search in larger cells, each at the highest cost in it.'
-    )
-    downsampling_factor: int = parameter(
-        1, 'How many cells become one along each axis.', low=1, high=100
-    )
-    allow_unknown: bool = parameter(True, 'Whether to plan through unknown space.')
-    max_iterations: int = parameter(
-        1_000_000, 'Give up when more cells than that are expanded; -1 for no limit.'
-    )
-    max_planning_time: float = parameter(5.0, 'Give up after this time in s.', low=0.0)
-    minimum_turning_radius: float = parameter(
-        0.4, 'The way in m on which the robot turns by a radian, at both ends.', low=0.0
-    )
-    cost_penalty: float = parameter(
-        2.0, 'How much more a metre costs at the highest cost than in free space.', low=0.0
-    )
-    use_quadratic_cost_penalty: bool = parameter(
-        False, 'Whether that rises with the square of the cost.'
-    )
-    smooth_path: bool = parameter(True, 'Whether to smooth the path.')
-
-
-class SmacPlannerHybrid(PlanarPlanner):
-    """
-    Planner of smoothed paths that blend from the start's yaw to the path's and the goal's.
-
-    Parameters
-    ----------
-    node, name, costmap
-        As for `GlobalPlanner`: the planner server, the planner's name and the global costmap.
-
-    """
-
-    official_name = 'nav2_smac_planner::SmacPlannerHybrid'
-    unsupported = dict.fromkeys(
-        [
-            'max_on_approach_iterations',
-            'terminal_checking_interval',
-            'motion_model_for_search',
-            'angle_quantization_bins',
-            'analytic_expansion_ratio',
-            'analytic_expansion_max_length',
-            'analytic_expansion_max_cost',
-            'analytic_expansion_max_cost_override',
-            'cost_travel_multiplier',
-            'rotation_penalty',
-            'allow_reverse_expansion',
-            'reverse_penalty',
-            'change_penalty',
-            'non_straight_penalty',
-            'retrospective_penalty',
-            'lookup_table_size',
-            'cache_obstacle_heuristic',
-            'downsample_obstacle_heuristic',
-            'allow_primitive_interpolation',
-            'debug_visualizations',
-            'viz_expansions',
-        ],
-        _SEARCH,
-    )
-
-    def __init__(self, node: LifecycleNode, name: str, costmap: Costmap2DROS) -> None:
-        super().__init__(node, name, costmap)
-        self._parameters = node.parameters.declare(HybridParameters, prefix=name)
-
-    @property
-    def settings(self) -> PlanarSettings:
-        """Return the settings from the current parameters."""
-        values = self._parameters.current
-        return PlanarSettings(
-            tolerance_m=values.tolerance,
-            allow_unknown=values.allow_unknown,
-            max_cells=max(values.max_iterations, 0),
-            max_time_s=values.max_planning_time,
-            factor=values.downsampling_factor if values.downsample_costmap else 1,
-            traversal=values.cost_penalty,
-            power=2.0 if values.use_quadratic_cost_penalty else 1.0,
-            turning_radius_m=values.minimum_turning_radius,
-            smooth_path=values.smooth_path,
-        )
 
 
 @dataclass(frozen=True)

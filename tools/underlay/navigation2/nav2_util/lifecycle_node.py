@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any, ClassVar
 
 from nav2_util.actions import ActionServer
-from nav2_util.parameters import ParameterServer
+from nav2_util.parameters import ParameterServer, Unsupported
 from nav2_util.services import wait_for
 from nav2_util.timing import give_way, is_of_coroutine
 from nav2_util.transforms import Transforms
@@ -19,10 +19,15 @@ from rclpy.task import Future
 __all__ = ['LifecycleNode']
 
 _UNSUPPORTED = {
-    'autostart_node': 'the lifecycle manager, or a call of change_state, brings the node up',
-    'bond_heartbeat_period': (
+    'autostart_node': Unsupported(
+        'the lifecycle manager, or a call of change_state, brings the node up', (False,)
+    ),
+    'bond_heartbeat_period': Unsupported(
         'instead of bonds, the lifecycle manager asks for the state of the node'
     ),
+    'allow_parameter_qos_overrides': Unsupported('the QoS of topics is fixed'),
+    'introspection_mode': Unsupported('services are not introspected', ('disabled',)),
+    'service_introspection_mode': Unsupported('services are not introspected', ('disabled',)),
 }
 _END_S = 1.0
 _LOOK_S = 0.02

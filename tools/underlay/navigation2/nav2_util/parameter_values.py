@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from rclpy.parameter import Parameter
 from ros_environment.suggestions import closest_name
 
-__all__ = ['Spec', 'check_limits', 'coerced', 'typed_parameter']
+__all__ = ['Spec', 'Unsupported', 'check_limits', 'coerced', 'typed_parameter']
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,27 @@ class Spec:
     choices: tuple[Any, ...]
     name: str | None
     read_only: bool
+
+
+class Unsupported(NamedTuple):
+    """A parameter of Nav2 that has no effect."""
+
+    instead: str
+    """What happens instead, as the end of a sentence."""
+    usual: tuple[Any, ...] | None = None
+    """The values that need no warning, since they ask for that; None: no value needs one."""
+
+    def needs_warning(self, value: Any) -> bool:
+        """
+        Whether a user who sets this value has to know that it has no effect.
+
+        Parameters
+        ----------
+        value
+            The given value.
+
+        """
+        return self.usual is not None and value not in self.usual
 
 
 def typed_parameter(name: str, value: Any, like: Any) -> Parameter:

@@ -8,7 +8,13 @@ from dataclasses import field, fields, MISSING, replace
 from typing import Any, Generic, TYPE_CHECKING, TypeVar
 
 from nav2_util.errors import ConfigurationError
-from nav2_util.parameter_values import check_limits, coerced, Spec, typed_parameter
+from nav2_util.parameter_values import (
+    check_limits,
+    coerced,
+    Spec,
+    typed_parameter,
+    Unsupported,
+)
 from rcl_interfaces.msg import (
     FloatingPointRange,
     IntegerRange,
@@ -22,10 +28,11 @@ from ros_environment.suggestions import did_you_mean
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-__all__ = ['ParameterServer', 'ParameterSet', 'parameter']
+__all__ = ['ParameterServer', 'ParameterSet', 'Unsupported', 'parameter']
 
 ParametersT = TypeVar('ParametersT')
 _HUGE = 1e300
+_QOS_OVERRIDES = '.allow_parameter_qos_overrides'
 
 
 def parameter(
@@ -106,7 +113,7 @@ class ParameterServer:
         self._sets: dict[str, list[tuple[ParameterSet[Any], str]]] = {}
         self._by_prefix: dict[tuple[str, type], ParameterSet[Any]] = {}
         self._complained: set[str] = set()
-        self._unsupported: dict[str, str] = {}
+        self._unsupported: dict[str, Unsupported] = {}
         node.add_on_set_parameters_callback(self._check)
 
     def declare(self, kind: type[ParametersT], prefix: str = '') -> ParameterSet[ParametersT]:
@@ -173,19 +180,24 @@ class ParameterServer:
             return self._node.get_parameter(name).value
         return self._declare_one(name, default, Spec(description, None, None, (), None, False))
 
-    def declare_unsupported(self, names: Mapping[str, str], prefix: str = '') -> None:
+    def declare_unsupported(
+        self, names: Mapping[str, str | Unsupported], prefix: str = ''
+    ) -> None:
         """
         Warn about each given parameter of Nav2 that is not supported, once.
 
         Parameters
         ----------
         names
-            The names of parameters and what happens instead, as the end of a sentence.
+            The names of parameters and what happens instead, as the end of a sentence, or with
+            the values that need no warning.
         prefix
             The prefix of the names, without the dot.
 
         """
         for name, instead in names.items():
+            if isinstance(instead, str):
+                instead = Unsupported(instead, ())
             self._unsupported[_full(prefix, name)] = instead
 
     @property
@@ -222,11 +234,21 @@ class ParameterServer:
         ]
         self._complained.update(unknown)
         log = self._node.get_logger()
+        without_effect: dict[str, list[str]] = {}
         for name in sorted(unknown):
-            if name in self._unsupported:
-                log.warning(f"The parameter '{name}' has no effect: {self._unsupported[name]}.")
-            elif not name.startswith('qos_overrides.'):
-                log.warning(f"There is no parameter '{name}'. {self._advice(name)}")
+            unsupported = self._unsupported.get(name)
+            if unsupported is None:
+                if not name.startswith('qos_overrides.') and not name.endswith(_QOS_OVERRIDES):
+                    log.warning(f"There is no parameter '{name}'. {self._advice(name)}")
+            elif unsupported.needs_warning(self.given[name].value):
+                without_effect.setdefault(unsupported.instead, []).append(f"'{name}'")
+        for instead, names in without_effect.items():
+            which = (
+                f'The parameter {names[0]} has'
+                if len(names) == 1
+                else f'The parameters {", ".join(names)} have'
+            )
+            log.warning(f'{which} no effect: {instead}.')
 
     def _advice(self, name: str) -> str:
         known = [*self._node.list_parameters([], 0).names, *self._unsupported]

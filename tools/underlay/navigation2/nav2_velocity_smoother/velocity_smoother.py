@@ -8,6 +8,7 @@ from typing import Any
 
 from nav2_util import ConfigurationError, LifecycleNode, parameter, ParameterSet
 from nav2_util.odometry import subscribe_velocity
+from nav2_util.parameters import Unsupported
 from nav2_util.timing import clock_of, now_s
 from nav2_util.twist import subscribe_twist, TwistPublisher, Velocity
 from nav2_velocity_smoother.smoothing import apply_deadband, Limits, OdometryAverage, smooth
@@ -94,7 +95,11 @@ class VelocitySmoother(LifecycleNode):
     def configure(self) -> None:
         """Read and validate the parameters; subscribe to commands and odometry."""
         self.parameters.declare_unsupported(
-            {'use_realtime_priority': 'Python has no threads of real-time priority'}
+            {
+                'use_realtime_priority': Unsupported(
+                    'Python has no threads of real-time priority', (False,)
+                )
+            }
         )
         self._told = self.parameters.declare(VelocitySmootherParameters)
         current = self._told.current

@@ -24,11 +24,6 @@ __all__ = ['WaypointFollower', 'WaypointFollowerParameters']
 _UNKNOWN = FollowWaypoints.Result.UNKNOWN
 _TASK_FAILED = FollowWaypoints.Result.TASK_EXECUTOR_FAILED
 _SERVER_TIMEOUT_S = 2.0
-_UNSUPPORTED = {
-    'bond_heartbeat_period': 'the lifecycle manager polls the state of the node instead',
-    'introspection_mode': 'services are not introspected',
-    'allow_parameter_qos_overrides': 'QoS is fixed',
-}
 
 
 @dataclass(frozen=True)
@@ -74,7 +69,6 @@ class WaypointFollower(LifecycleNode):
     def configure(self) -> None:
         """Create the task, the client of the navigator, and the actions."""
         self.settings = self.parameters.declare(WaypointFollowerParameters)
-        self.parameters.declare_unsupported(_UNSUPPORTED)
         self._task = make_task(self, self.settings.current.waypoint_task_executor_plugin)
         self._client = ActionClient(self, NavigateToPose, 'navigate_to_pose')
         self._from_ll = self._find_converter()

@@ -23,6 +23,7 @@ SERVERS = {
     'collision_monitor',
     'bt_navigator',
     'waypoint_follower',
+    'docking_server',
     'map_server',
     'amcl',
     'lifecycle_manager_navigation',
@@ -41,9 +42,9 @@ def _launch_files_of_this_folder(tmp_path, monkeypatch):
     monkeypatch.setenv('AMENT_PREFIX_PATH', f'{tmp_path}{os.pathsep}{before}')
 
 
-def _facts(**arguments: str) -> list[dict[str, Any]]:
-    """Return what each action of the bringup tells."""
-    path = str(FOLDER / 'launch' / 'bringup_launch.py')
+def _facts(name: str = 'bringup_launch.py', **arguments: str) -> list[dict[str, Any]]:
+    """Return what each action of a launch file tells."""
+    path = str(FOLDER / 'launch' / name)
     given = {'params_file': str(FOLDER / 'params' / 'nav2_params.yaml'), **arguments}
     service = LaunchService(noninteractive=True)
     service.include_launch_description(
@@ -108,6 +109,7 @@ def test_map_of_the_parameter_file(tmp_path):
             programs = {each['node_name']: each for each in facts if 'node_name' in each}
             server = {**programs, **_components(facts)}['map_server']
             assert server['parameters']['yaml_filename'] == expected
+            assert 'docking_server' not in {**programs, **_components(facts)}
 
 
 def test_namespace():
@@ -120,6 +122,22 @@ def test_namespace():
     components = _components(facts)
     assert set(components) == SERVERS
     assert components['amcl']['parameters']['base_frame_id']
+
+
+@pytest.mark.parametrize(('robot', 'scan'), [('tb3', 'base_scan'), ('tb4', 'rplidar_link')])
+def test_loopback_simulation(robot, scan):
+    """A robot without physics, its map, navigation without AMCL, and RViz if wanted."""
+    facts = _facts(f'{robot}_loopback_simulation.launch.py', use_rviz='False')
+    programs = {each['node_name']: each for each in facts if 'node_name' in each}
+    assert {'loopback_simulator', 'map_server', 'lifecycle_manager_map_server'} <= set(programs)
+    assert programs['loopback_simulator']['parameters']['scan_frame_id'] == scan
+    assert Path(programs['map_server']['parameters']['yaml_filename']).is_file()
+    assert 'rviz2' not in programs
+    components = _components(facts)
+    assert 'amcl' not in components and 'planner_server' in components
+    assert components['planner_server']['parameters']['use_sim_time'] is True
+    everything = _facts(f'{robot}_loopback_simulation.launch.py', use_composition='False')
+    assert {'rviz2', 'planner_server'} <= {each.get('node_name') for each in everything}
 
 
 @pytest.mark.parametrize(('slam', 'has_amcl'), [('True', False), ('False', True)])

@@ -138,7 +138,10 @@ PLANNERS = [
 @pytest.mark.parametrize('kind', PLANNERS)
 def test_each_planner_plans_through_the_door(ros, kind):
     """The path begins at the robot, ends at the goal, and keeps off obstacles."""
-    nav = Navigation(ros, {'planner_plugins': ['Mine'], 'Mine.plugin': kind}).start()
+    told = {'planner_plugins': ['Mine'], 'Mine.plugin': kind}
+    if 'Hybrid' in kind:  # beside the wall a car cannot turn without reversing
+        told['Mine.motion_model_for_search'] = 'REEDS_SHEPP'
+    nav = Navigation(ros, told).start()
     answer = nav.plan(5.0, 0.52, 1.2)
     assert answer.status == GoalStatus.STATUS_SUCCEEDED, answer.result.error_msg
     assert answer.result.error_code == TO_POSE.NONE and answer.result.path.header.frame_id == 'map'

@@ -210,6 +210,24 @@ def test_conditions_about_the_robot(lab: Lab) -> None:
     assert charging.tick() is SUCCESS
 
 
+def test_standing_still_takes_a_while(lab: Lab) -> None:
+    """In motion, also sideways or on the spot, the condition fails and starts anew."""
+    tree = lab.tree('<IsStopped velocity_threshold="0.02" duration_stopped="500"/>')
+
+    def after(duration_s: float, *velocity: float) -> NodeStatus:
+        lab.now_s += duration_s
+        lab.odometry.add(lab.now_s, *velocity)
+        return tree.tick()
+
+    assert after(1.0, 0.0, 0.0, 0.3) is FAILURE
+    assert after(1.0, 0.0, 0.3) is FAILURE
+    assert after(1.0, 0.01, 0.0) is RUNNING
+    assert after(0.4, 0.0, 0.0) is RUNNING
+    assert after(0.2, 0.0, 0.0) is SUCCESS
+    assert after(1.0, -0.3, 0.0) is FAILURE
+    assert after(1.0, 0.0, 0.0) is RUNNING
+
+
 def test_topics_choose_planners_and_update_goals(lab: Lab) -> None:
     """A selector has a default; the goal updater takes newer goals."""
     tree = lab.tree('<PlannerSelector default_planner="A" selected_planner="{p}"/>')

@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from nav2_util import ConfigurationError, parameter
-from nav2_util.parameters import ParameterServer
+from nav2_util.parameters import ParameterServer, Unsupported
 import pytest
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -185,8 +185,31 @@ def test_unknown_and_unsupported_are_said_once(made, capfd):
     server.report()
     assert _said(capfd) == [
         "There is no parameter 'colour'. It has no effect.",
-        "The parameter 'p.old' has no effect: there is a better way.",
         "There is no parameter 'rte'. Did you mean 'rate'?",
+        "The parameter 'p.old' has no effect: there is a better way.",
     ]
     server.report()
     assert _said(capfd) == []
+
+
+@pytest.mark.parametrize(
+    ('given', 'said'),
+    [
+        ({'a': False, 'b': 1667, 'c': 0.5}, []),
+        ({'a': True, 'b': 1669}, ["The parameter 'a' has no effect: it is never so."]),
+        ({'a': True, 'c': 1.0}, ["The parameters 'a', 'c' have no effect: it is never so."]),
+    ],
+)
+def test_usual_values_without_effect_need_no_word(made, capfd, given, said):
+    """Those that ask for what happens anyway; what has the same reason is said together."""
+    _, server = made(**given)
+    reason = 'it is never so'
+    server.declare_unsupported(
+        {
+            'a': Unsupported(reason, (False,)),
+            'b': Unsupported(reason),
+            'c': Unsupported(reason, (0.5,)),
+        }
+    )
+    server.report()
+    assert _said(capfd) == said

@@ -19,11 +19,12 @@ __all__ = [
     'GoalReached',
     'IsBatteryCharging',
     'IsBatteryLow',
+    'IsStopped',
     'IsStuck',
     'TransformAvailable',
 ]
 
-SUCCESS, FAILURE = NodeStatus.SUCCESS, NodeStatus.FAILURE
+RUNNING, SUCCESS, FAILURE = NodeStatus.RUNNING, NodeStatus.SUCCESS, NodeStatus.FAILURE
 _FRAMES: dict[str, Port] = {
     'global_frame': in_port('text', '', "The frame to measure in; empty: the navigator's."),
     'robot_base_frame': in_port('text', '', "The robot's frame; empty: the navigator's."),
@@ -151,6 +152,41 @@ class IsStuck(TreeNode):
     def on_tick(self) -> NodeStatus:
         """Check the acceleration."""
         return outcome(self.context.ros.acceleration_m_s2() < _BRAKE_LIMIT_M_S2)
+
+
+@register()
+class IsStopped(TreeNode):
+    """
+    Succeeds once the robot has stood still for a while; runs before that, and fails in motion.
+
+    Parameters
+    ----------
+    config
+        As for `TreeNode`; its context has a `RosInterface`.
+
+    """
+
+    ports: ClassVar[dict[str, Port]] = {
+        'velocity_threshold': in_port(
+            'number', '0.01', 'The speed in m/s, and the yaw rate in rad/s, of a still robot.'
+        ),
+        'duration_stopped': in_port('milliseconds', '1000', 'For how long, in ms.'),
+    }
+
+    def __init__(self, config: NodeConfig) -> None:
+        super().__init__(config)
+        self._since_s: float | None = None
+
+    def on_tick(self) -> NodeStatus:
+        """Measure how long the robot has stood still."""
+        if self.context.ros.motion() > self.input('velocity_threshold'):
+            self._since_s = None
+            return FAILURE
+        now_s = self.context.now_s()
+        if self._since_s is None or self.is_fresh:
+            self._since_s = now_s
+        stood_ms = (now_s - self._since_s) * 1e3
+        return SUCCESS if stood_ms >= self.input('duration_stopped') else RUNNING
 
 
 @register()

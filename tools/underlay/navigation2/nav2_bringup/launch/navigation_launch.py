@@ -4,7 +4,11 @@
 from __future__ import annotations
 
 from launch import LaunchDescription
+from launch.actions import GroupAction
+from launch.conditions import IfCondition, UnlessCondition
+from launch.substitutions import LaunchConfiguration
 from nav2_bringup.servers import declared, Server, server_actions
+from nav2_common.launch import HasNodeParams
 
 TO_SMOOTHER = [('cmd_vel', 'cmd_vel_nav')]
 SERVERS = [
@@ -45,10 +49,19 @@ SERVERS = [
         'waypoint_follower',
     ),
 ]
+DOCKING = Server(
+    'opennav_docking',
+    'opennav_docking',
+    'opennav_docking::DockingServer',
+    'docking_server',
+    TO_SMOOTHER,
+)
+MANAGER = 'lifecycle_manager_navigation'
 
 
 def generate_launch_description() -> LaunchDescription:
-    """Start the servers and their manager."""
+    """Start the servers and their manager; that of docks if it has parameters."""
+    has_docks = HasNodeParams(LaunchConfiguration('params_file'), 'docking_server')
     return LaunchDescription(
         [
             *declared(
@@ -62,6 +75,9 @@ def generate_launch_description() -> LaunchDescription:
                 'log_level',
                 use_composition='False',
             ),
-            *server_actions(SERVERS, 'lifecycle_manager_navigation'),
+            GroupAction(
+                server_actions([*SERVERS, DOCKING], MANAGER), condition=IfCondition(has_docks)
+            ),
+            GroupAction(server_actions(SERVERS, MANAGER), condition=UnlessCondition(has_docks)),
         ]
     )
