@@ -13,7 +13,12 @@ __all__ = ['cart', 'sliders', 'turtlesim']
 
 SLIDERS = (('left_shoulder_roll', '1.2'), ('left_elbow', '-1.4'))
 """The joints that are moved, and to which angles."""
-CART = (('head_pan', '0.5'), ('lift', '-0.05'), ('left_finger_joint', '0.5'), ('right_finger_joint', '0.5'))
+CART = (
+    ('head_pan', '0.5'),
+    ('lift', '-0.05'),
+    ('left_finger_joint', '0.5'),
+    ('right_finger_joint', '0.5'),
+)
 TURTLES = (
     ('turtle1', '', 'r: 179, g: 184, b: 255, width: 3', (2.0, 1.5)),
     ('lea', 'x: 1.5, y: 8.0, theta: 0.5', 'r: 255, g: 212, b: 59, width: 6', (1.2, -1.0)),
@@ -52,8 +57,8 @@ def cart(browser: Any, address: str) -> None:
     keep('urdf_tutorial.webp', _moved(browser, address, CART))
 
 
-def _moved(browser: Any, address: str, positions: Sequence[tuple[str, str]]) -> bytes:
-    """Move joints with the sliders; return the picture of the page."""
+def _moved(browser: Any, address: str, positions: Sequence[tuple[str, str]]) -> Any:
+    """Move joints with the sliders; return the picture of the page, as an image of Pillow."""
     tab = opened(browser, address)
     panel = tab.frame_locator('iframe[title=sliders]')
     for joint, position in positions:

@@ -30,15 +30,15 @@ def properties(element: ElementTree.Element) -> dict[str, float | str]:
     """Return all attributes of an element and those below it, by their places."""
     found: dict[str, float | str] = {}
     for child in element:
-        if child.tag == 'origin' and not any(map(float, ' '.join(child.attrib.values()).split())):
-            continue  # the default
         key = child.tag + child.get('name', '')
         for name, text in child.attrib.items():
             for number, word in enumerate(text.split()):
                 try:
-                    found[f'{key}.{name}.{number}'] = float(word)
+                    value: float | str = float(word)
                 except ValueError:
-                    found[f'{key}.{name}.{number}'] = word
+                    value = word
+                if (child.tag, value) != ('origin', 0.0):  # the default
+                    found[f'{key}.{name}.{number}'] = value
         found.update({f'{key}/{name}': value for name, value in properties(child).items()})
     return found
 
