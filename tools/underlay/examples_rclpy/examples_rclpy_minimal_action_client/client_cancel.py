@@ -22,8 +22,8 @@ async def _send_and_cancel(node: MinimalActionClient) -> None:
     await sleep(node, PATIENCE_S)
     node.get_logger().info('Canceling goal')
     response = await response_of(node, goal.cancel_goal_async)
-    is_canceled = bool(response.goals_canceling)
-    node.get_logger().info('Goal successfully canceled' if is_canceled else 'Goal failed to cancel')
+    text = 'Goal successfully canceled' if response.goals_canceling else 'Goal failed to cancel'
+    node.get_logger().info(text)
 
 
 def main(args: Sequence[str] | None = None) -> int:

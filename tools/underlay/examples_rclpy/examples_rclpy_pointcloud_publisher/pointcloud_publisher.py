@@ -68,7 +68,7 @@ class PointCloudPublisher(Node):
         Returns
         -------
         numpy.ndarray
-            Rows of x, y and z in m, and the intensity, which is the height in units of the highest.
+            Rows of x, y and z in m, and the intensity: z as a part of the highest one.
 
         """
         along = np.linspace(-EXTENT_M, EXTENT_M, self.width, dtype=np.float32)

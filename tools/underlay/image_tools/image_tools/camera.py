@@ -64,7 +64,7 @@ class Camera:
         """
         is_read, pixels = self._capture.read()
         if not is_read:
-            raise ValueError(f'The camera {self._device_id} gives no images: is it still connected?')
+            raise ValueError(f'The camera {self._device_id} gives no images: is it connected?')
         return np.ascontiguousarray(pixels[:, :, ::-1])
 
     def close(self) -> None:

@@ -44,7 +44,9 @@ def make_parser() -> ArgumentParser:
     """Return the parser of the command line."""
     parser = ArgumentParser(prog='incompatible_qos', description=__doc__)
     parser.add_argument(
-        'incompatible_qos_policy_name', choices=POLICIES, help='the policy of which more is requested than offered'
+        'incompatible_qos_policy_name',
+        choices=POLICIES,
+        help='the policy of which more is requested than offered',
     )
     return parser
 

@@ -19,7 +19,9 @@ TOPIC = 'qos_lifespan_chatter'
 def make_parser() -> ArgumentParser:
     """Return the parser of the command line."""
     parser = ArgumentParser(prog='lifespan', description=__doc__)
-    parser.add_argument('lifespan_duration', type=milliseconds, help='the lifespan in ms; 0 is for ever')
+    parser.add_argument(
+        'lifespan_duration', type=milliseconds, help='the lifespan in ms; 0 is for ever'
+    )
     parser.add_argument(
         '--history',
         type=int,

@@ -23,7 +23,9 @@ def make_parser() -> ArgumentParser:
     """Return the parser of the command line."""
     parser = ArgumentParser(prog='liveliness', description=__doc__)
     parser.add_argument(
-        'lease_duration', type=milliseconds, help='how often a sign of life is due, in ms; 0 is never'
+        'lease_duration',
+        type=milliseconds,
+        help='how often a sign of life is due, in ms; 0 is never',
     )
     parser.add_argument(
         '--policy',

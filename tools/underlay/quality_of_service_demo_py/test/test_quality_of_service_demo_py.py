@@ -30,7 +30,9 @@ def test_incompatible_qos(stage: Any, policy: str) -> None:
     """Both sides name the policy; no message comes."""
     stage.start(incompatible_qos, policy)
     name = 'LIVELINESS' if policy.startswith('liveliness') else policy.upper()
-    stage.until_logged('Offered incompatible QoS - total 1', 'Requested incompatible QoS - total 1')
+    stage.until_logged(
+        'Offered incompatible QoS - total 1', 'Requested incompatible QoS - total 1'
+    )
     assert stage.log.count(f'last policy: {name}\n') == 2
     assert 'I heard' not in stage.log
 
