@@ -1,17 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tours of pages without a simulated robot: the sliders of a model, turtles."""
+"""Tours of pages without a simulated robot: the sliders of models, turtles."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from running import ros2
 from tabs import keep, opened, seen
 
-__all__ = ['sliders', 'turtlesim']
+__all__ = ['cart', 'sliders', 'turtlesim']
 
 SLIDERS = (('left_shoulder_roll', '1.2'), ('left_elbow', '-1.4'))
 """The joints that are moved, and to which angles."""
+CART = (
+    ('head_pan', '0.5'),
+    ('lift', '-0.05'),
+    ('left_finger_joint', '0.5'),
+    ('right_finger_joint', '0.5'),
+)
 TURTLES = (
     ('turtle1', '', 'r: 179, g: 184, b: 255, width: 3', (2.0, 1.5)),
     ('lea', 'x: 1.5, y: 8.0, theta: 0.5', 'r: 255, g: 212, b: 59, width: 6', (1.2, -1.0)),
@@ -34,15 +41,34 @@ def sliders(browser: Any, address: str) -> None:
         The browser of Playwright, and the URL of the page.
 
     """
+    keep('sliders.webp', _moved(browser, address, SLIDERS))
+
+
+def cart(browser: Any, address: str) -> None:
+    """
+    Move the cart of the URDF tutorials with the sliders, and take the picture of the page.
+
+    Parameters
+    ----------
+    browser, address
+        The browser of Playwright, and the URL of the page.
+
+    """
+    keep('urdf_tutorial.webp', _moved(browser, address, CART))
+
+
+def _moved(browser: Any, address: str, positions: Sequence[tuple[str, str]]) -> Any:
+    """Move joints with the sliders; return the picture of the page, as an image of Pillow."""
     tab = opened(browser, address)
     panel = tab.frame_locator('iframe[title=sliders]')
-    for joint, angle in SLIDERS:
+    for joint, position in positions:
         field = panel.get_by_role('spinbutton', name=joint)
-        field.fill(angle)
+        field.fill(position)
         field.press('Enter')
     tab.wait_for_timeout(2000)
-    keep('sliders.webp', seen(tab))
+    picture = seen(tab)
     tab.close()
+    return picture
 
 
 def turtlesim(browser: Any, address: str) -> None:

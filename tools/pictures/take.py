@@ -47,6 +47,10 @@ TOURS = {
     'apartment': Tour(home_tours.apartment, (*BRINGUP, 'scene:=apartment')),
     'command': Tour(home_tours.command, FULL_SYSTEM),
     'sliders': Tour(page_tours.sliders, ('launch', 'humanoid_description', 'view.launch.py')),
+    'cart': Tour(
+        page_tours.cart,
+        ('launch', 'urdf_tutorial', 'display.launch.py', 'model:=urdf/06-flexible.urdf'),
+    ),
     'turtlesim': Tour(page_tours.turtlesim, ('run', 'turtlesim', 'turtlesim_node')),
 }
 """By name. Tours of one robot follow each other; the one in which it falls is the last."""
