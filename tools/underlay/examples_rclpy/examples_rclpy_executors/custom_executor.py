@@ -112,7 +112,7 @@ class PriorityExecutor(Executor):
             Whether they ended in time.
 
         """
-        has_ended = super().shutdown(timeout_sec)
+        has_ended: bool = super().shutdown(timeout_sec)
         for threads in (self._for_important, self._for_others):
             threads.shutdown(wait=has_ended)
         return has_ended

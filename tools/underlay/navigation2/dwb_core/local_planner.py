@@ -52,7 +52,7 @@ _CRITICS: dict[str, type[Critic]] = {
     'Twirling': TwirlingCritic,
 }
 """The critics by their official names."""
-_UNSUPPORTED = {
+_UNSUPPORTED: dict[str, str | Unsupported] = {
     'goal_checker_name': 'the goal checkers of the controller server are used',
     'publish_evaluation': Unsupported('scores are not published', (True, False)),
     'publish_cost_grid_pc': Unsupported('the grids of critics are not published', (False,)),

@@ -55,7 +55,7 @@ def loopback_description(map_file: str, scan_frame: str) -> LaunchDescription:
 
     """
     arguments = declared(*_NAMES, map=PathJoinSubstitution([_SHARE, 'maps', map_file]))
-    more = {
+    more: dict[str, tuple[Any, str]] = {
         'use_rviz': ('True', 'Whether to start RViz.'),
         'rviz_config_file': (
             PathJoinSubstitution([_SHARE, 'rviz', 'nav2_default_view.rviz']),

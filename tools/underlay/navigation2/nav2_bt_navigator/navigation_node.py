@@ -22,7 +22,7 @@ from std_msgs.msg import String
 __all__ = ['UNSUPPORTED', 'BtNavigatorParameters', 'NavigationNode', 'TreeLog']
 
 _NO_GROOT = 'Groot cannot connect; subscribe to behavior_tree_log instead'
-UNSUPPORTED = {
+UNSUPPORTED: dict[str, str | Unsupported] = {
     'default_cancel_timeout': Unsupported('canceling does not wait for the servers', (50,)),
     'enable_groot_monitoring': Unsupported(_NO_GROOT, (False,)),
     'groot_server_port': Unsupported(_NO_GROOT),

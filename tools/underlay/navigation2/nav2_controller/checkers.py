@@ -24,7 +24,7 @@ __all__ = [
     'StoppedGoalChecker',
 ]
 
-_LATER = {
+_LATER: dict[str, str | Unsupported] = {
     'path_length_tolerance': Unsupported(
         'the goal counts as reached wherever on the path the robot is', (1.0,)
     ),

@@ -9,7 +9,7 @@ from nav2_util.parameters import parameter, Unsupported
 
 __all__ = ['UNSUPPORTED', 'RppParameters']
 
-UNSUPPORTED = {
+UNSUPPORTED: dict[str, str | Unsupported] = {
     'min_distance_to_obstacle': (
         'collisions are checked as far ahead as max_allowed_time_to_collision_up_to_carrot says'
     ),

@@ -46,7 +46,7 @@ class HeadingLayers:
         self._resolution = costmap.resolution
         cells = costmap.cells
         unknown = cells == NO_INFORMATION
-        self._centre = (cells >= INSCRIBED_INFLATED_OBSTACLE) & ~unknown
+        self._centre: MaskGrid = (cells >= INSCRIBED_INFLATED_OBSTACLE) & ~unknown
         self._lethal = (cells == LETHAL_OBSTACLE).astype(np.uint8)
         if not allow_unknown:
             self._centre |= unknown
@@ -84,4 +84,5 @@ class HeadingLayers:
         fixed = np.rint((corners + reach) * (1 << _FRACTION_BITS)).astype(np.int32)
         cv2.fillPoly(kernel, [fixed], 1, shift=_FRACTION_BITS)
         hit = cv2.dilate(self._lethal, kernel, borderType=cv2.BORDER_CONSTANT, borderValue=1)
-        return self._centre | (hit > 0)
+        mask: MaskGrid = self._centre | (hit > 0)
+        return mask

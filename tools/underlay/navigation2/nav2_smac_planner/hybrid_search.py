@@ -143,7 +143,7 @@ class HybridSearch:
         self._costmap, self._options = costmap, options
         self._start, self._goal = start, goal
         self._cell_m = costmap.resolution
-        self._rows, self._columns = costmap.cells.shape
+        self._rows, self._columns = map(int, costmap.cells.shape)
         self._turn_rad = 2.0 * math.pi / options.headings
         self._layers = HeadingLayers(costmap, footprint, options.headings, options.allow_unknown)
         table = weight_table(
@@ -271,19 +271,20 @@ class HybridSearch:
                 'within the tolerance is free. Choose another goal.',
             )
         found = cost_to_go(grid, free, near)
-        costs = np.full(grid.shape, np.inf)
+        costs: FloatArray = np.full(grid.shape, np.inf)
         reached = found.costs < _BEYOND
         width = found.ids.shape[1] + 2
         row, column = np.divmod(found.places[reached], width)
         row, column = row + found.origin[0] - 1, column + found.origin[1] - 1
         costs[row, column] = found.costs[reached] * factor * self._cell_m
-        self._remaining = memoryview(costs.ravel())
+        self._remaining: memoryview[float] = memoryview(costs.ravel())  # type: ignore[arg-type]
         self._heuristic_shape = factor, grid.shape[1]
 
     def _estimate(self, x: float, y: float) -> float:
         """Return the least cost from a place to the goal, in m times weights."""
         factor, width = self._heuristic_shape
-        return self._remaining[int(y) // factor * width + int(x) // factor]
+        remaining: float = self._remaining[int(y) // factor * width + int(x) // factor]
+        return remaining
 
     def _steps_from(self, heading: int) -> list[_Step]:
         """Return the motions from a heading: straight on, and in curves; also backward."""

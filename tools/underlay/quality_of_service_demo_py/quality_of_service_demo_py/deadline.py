@@ -23,7 +23,9 @@ TOPIC = 'qos_deadline_chatter'
 def make_parser() -> ArgumentParser:
     """Return the parser of the command line."""
     parser = ArgumentParser(prog='deadline', description=__doc__)
-    parser.add_argument('deadline_duration', type=milliseconds, help='the deadline in ms; 0 is none')
+    parser.add_argument(
+        'deadline_duration', type=milliseconds, help='the deadline in ms; 0 is none'
+    )
     parser.add_argument(
         '--publish-for',
         type=milliseconds,

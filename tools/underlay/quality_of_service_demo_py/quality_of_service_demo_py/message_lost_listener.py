@@ -48,8 +48,7 @@ class MessageLostListener(Node):
         """
         latency = self.get_clock().now() - Time.from_msg(image.header.stamp)
         self.get_logger().info(
-            'I heard an image. Message single trip latency: '
-            f'[{latency.nanoseconds / 1e9:.6f}]'
+            f'I heard an image. Message single trip latency: [{latency.nanoseconds / 1e9:.6f}]'
         )
 
     def log_lost(self, event: Any) -> None:

@@ -7,8 +7,13 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from quality_of_service_demo_py import deadline, incompatible_qos, lifespan, liveliness
-from quality_of_service_demo_py import message_lost_talker
+from quality_of_service_demo_py import (
+    deadline,
+    incompatible_qos,
+    lifespan,
+    liveliness,
+    message_lost_talker,
+)
 from quality_of_service_demo_py.message_lost_listener import MessageLostListener
 from rclpy.duration import Duration
 

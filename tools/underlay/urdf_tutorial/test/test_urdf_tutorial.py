@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from xml.etree import ElementTree
 
 from launch import LaunchContext
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription
@@ -14,7 +15,6 @@ import pytest
 from urdf import parse_urdf
 from urdf.robot_model import RobotModel
 import xacro
-from xml.etree import ElementTree
 
 PACKAGE = Path(__file__).parents[1]
 STEPS = sorted((PACKAGE / 'urdf').glob('*.urdf'))

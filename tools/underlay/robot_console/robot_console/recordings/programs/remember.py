@@ -16,11 +16,11 @@ from ros2bag.api.common_arguments import TopicFilter
 from ros2bag.api.control import PauseSwitch, StopSignals
 from ros2bag.api.recorder import Recorder
 from ros2bag.api.recording import find_definition
-from ros2cli.arguments import regular_expression
 from ros2bag.storage import BagError
 from ros2bag.storage.bag_writer import BagWriter, DEFAULT_DISTRO, WriterOptions
 from ros2bag.storage.definitions import Definition
 from ros2bag.storage.snapshot import Kept, MessageMemory
+from ros2cli.arguments import regular_expression
 from ros2cli.node.direct import DirectNode
 
 __all__ = ['main', 'write_bag']
