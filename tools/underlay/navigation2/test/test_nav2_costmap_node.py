@@ -527,7 +527,7 @@ def test_filters(world):
             {'static_layer.plugin': 'nav2_costmap_2d::StatikLayer'},
             "Did you mean 'nav2_costmap_2d::StaticLayer'",
         ),
-        ({'plugins': ['extra']}, "Set the parameter 'extra.plugin'"),
+        ({'plugins': ['extra']}, "The parameter 'extra.plugin' is not set"),
         ({'footprint': '[[1, 2]]'}, 'at least three corners'),
         (
             {'filters': ['keepout'], 'keepout.plugin': 'nav2_costmap_2d::KeepoutFilter'},

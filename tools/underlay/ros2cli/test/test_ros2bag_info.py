@@ -112,7 +112,7 @@ def test_list(ros2_here: Ros2) -> None:
         (['record', '-a', '-f', 'json'], 2, "invalid choice: 'json'"),
         (['record', '-a', '--storage-config-file', '/nope'], 1, "'/nope' cannot be read"),
         (['play', '-i', 'x', 'rosbag_v2'], 1, 'rosbags-convert --src x'),
-        (['play', 'x', '-i', 'y'], 1, 'Name all bags with -i, or one without'),
+        (['play', 'x', '-i', 'y'], 1, 'Name all bags with -i, or a single one without'),
         (['play', 'x', '--clock', '--clock-topics-all'], 2, 'not allowed with argument --clock'),
         (['convert', '-o', 'x'], 1, 'Name the bags to read: with -i for each'),
         (['convert', '-i', 'a', '-o', '/nope'], 1, "'/nope' cannot be read"),

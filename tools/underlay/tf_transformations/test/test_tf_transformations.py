@@ -46,7 +46,7 @@ def test_axes_as_numbers(code: tuple[int, int, int, int], name: str) -> None:
 @pytest.mark.parametrize('axes', ['xyz', 'sxxy', 'qxyz', 'sabc', 'sxy'])
 def test_axes_that_do_not_exist(axes: str) -> None:
     """They are refused with examples."""
-    with pytest.raises(ValueError, match=f"'{axes}' are no axes .* such as sxyz"):
+    with pytest.raises(ValueError, match=f"'{axes}' are not axes .* such as sxyz"):
         tf.euler_matrix(*ANGLES, axes)
 
 
@@ -135,7 +135,7 @@ def test_mirrors_scales_and_shears() -> None:
         factor, fixed, along = tf.scale_from_matrix(scale)
         assert factor == pytest.approx(-1.5)
         assert tf.is_same_transform(tf.scale_matrix(factor, fixed, along), scale)
-    with pytest.raises(ValueError, match='no scale'):
+    with pytest.raises(ValueError, match='not a uniform scaling'):
         tf.scale_from_matrix(np.diag([1.0, 2.0, 3.0, 1.0]))
     shear = tf.shear_matrix(math.pi / 4, [1, 0, 0], [0, 0, 1], [0, 0, 1])
     assert shear @ [0.0, 0.0, 3.0, 1.0] == pytest.approx([2.0, 0.0, 3.0, 1.0])

@@ -161,7 +161,7 @@ def test_robots_that_are_put_together() -> None:
 @pytest.mark.parametrize(
     ('text', 'message'),
     [
-        ('<robot', 'no XML'),
+        ('<robot', 'not XML'),
         ('<sdf/>', 'begins with <robot>, but this one with <sdf>'),
         ('<robot><link/></robot>', "a <link> without the attribute 'name'"),
         ('<robot><joint name="a" type="hinge"/></robot>', "'hinge', but must be one of revolute"),
