@@ -61,5 +61,5 @@ def test_a_message_says_pitch_and_height() -> None:
     pose = body_pose_of(message)
     assert pose.pitch_rad == pytest.approx(0.2)
     assert pose.height_m == -0.08
-    with pytest.raises(WalkingError, match='no rotation'):
+    with pytest.raises(WalkingError, match='not a rotation'):
         body_pose_of(Pose(orientation=Quaternion(w=0.0)))

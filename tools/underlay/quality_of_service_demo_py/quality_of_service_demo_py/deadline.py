@@ -73,7 +73,7 @@ def _log(node: Node, side: str, event: Any) -> None:
     )
 
 
-async def pause_again_and_again(options: Namespace, talker: Talker, _: Listener) -> None:
+async def pause_again_and_again(options: Namespace, talker: Talker, listener: Listener) -> None:
     """
     Let the talker pause, for ever.
 
@@ -83,6 +83,8 @@ async def pause_again_and_again(options: Namespace, talker: Talker, _: Listener)
         The parsed command line.
     talker
         The talker.
+    listener
+        The listener, to which nothing is done.
 
     """
     while options.pause_for:

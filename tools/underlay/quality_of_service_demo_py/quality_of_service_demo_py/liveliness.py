@@ -99,7 +99,7 @@ def make_nodes(options: Namespace) -> tuple[Talker, Listener]:
     return talker, listener
 
 
-async def kill_talker(options: Namespace, talker: Talker, _: Listener) -> None:
+async def kill_talker(options: Namespace, talker: Talker, listener: Listener) -> None:
     """
     Let the talker assert its liveliness, and after some time end all signs of life.
 
@@ -109,6 +109,8 @@ async def kill_talker(options: Namespace, talker: Talker, _: Listener) -> None:
         The parsed command line.
     talker
         The talker.
+    listener
+        The listener, to which nothing is done.
 
     """
     assertions = None
