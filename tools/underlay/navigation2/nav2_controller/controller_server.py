@@ -232,14 +232,16 @@ class ControllerServer(LifecycleNode):
     def deactivate(self) -> None:
         """Stop the robot, and deactivate the local costmap."""
         self.publish_velocity(Velocity())
-        self.costmap.trigger_deactivate()
+        if self.costmap.state == 'active':
+            self.costmap.trigger_deactivate()
 
     def cleanup(self) -> None:
         """Release the plugins, and clean up the costmap."""
         self._velocities = None
         for made in (self.controllers, self.goal_checkers, self.progress_checkers):
             made.clear()
-        self.costmap.trigger_cleanup()
+        if self.costmap.state == 'inactive':  # not, if its process is ending
+            self.costmap.trigger_cleanup()
 
     def publish_velocity(self, velocity: Velocity) -> None:
         """
