@@ -60,6 +60,7 @@ def cart(browser: Any, address: str) -> None:
 def _moved(browser: Any, address: str, positions: Sequence[tuple[str, str]]) -> Any:
     """Move joints with the sliders; return the picture of the page, as an image of Pillow."""
     tab = opened(browser, address)
+    tab.get_by_role('tab', name='Sliders').click()
     panel = tab.frame_locator('iframe[title=sliders]')
     for joint, position in positions:
         field = panel.get_by_role('spinbutton', name=joint)
