@@ -140,7 +140,7 @@ def test_a_link_to_a_file_that_is_missing_is_refused(tmp_path: Path) -> None:
     (tmp_path / 'p').mkdir()
     (tmp_path / 'p' / 'README.md').write_text('# p\n')
     assert linked_file(tmp_path, 'a.md', 'p') == 'p/README.md'
-    with pytest.raises(SiteError, match='^a.md links to q, which is no file'):
+    with pytest.raises(SiteError, match='^a.md links to q, which is neither a file'):
         linked_file(tmp_path, 'a.md', 'q')
 
 
