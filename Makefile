@@ -93,7 +93,8 @@ trials: build ## Let the humanoid walk into 200 obstacles
 
 stories: build ## Run the stories that take too long for make test
 	@$(SETUP) tests
-	@$(RUN) python3 -m pytest -o python_files='story_*.py' src tools $(ARGS)
+	@$(RUN) python3 -m pytest -p tools.test.stories -m story -o python_files='test_*.py story_*.py' \
+	  src tools/test/story_*.py tools/underlay/*/test/story_*.py $(ARGS)
 
 docs: build ## Write docs/reference anew from the code, the commands and the launch files
 	@tools/in_environment python3 tools/reference/generate.py

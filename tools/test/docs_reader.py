@@ -26,11 +26,12 @@ FENCE = re.compile(
 DOCS = Path(__file__).resolve().parents[2] / 'docs'
 PAGES = [*sorted(DOCS.glob('tutorial/*.md')), *sorted(DOCS.glob('how-to/*.md'))]
 LONG = (
-    *('apartment', 'assistants', 'bags', 'browser'),
+    *('apartment', 'assistants', 'bags', 'browser', 'classroom'),
     *('course_controllers', 'course_navigation', 'course_perception'),
-    *('exercise_1', 'exercise_2', 'exercise_3', 'first_ten_minutes', 'look_inside', 'move_arms'),
-    *('navigate', 'objects', 'robot_model', 'simulation', 'take_things', 'tell_the_robot'),
-    *('train', 'use_your_own_yolo_model'),
+    *('exercise_1', 'exercise_2', 'exercise_3', 'first_ten_minutes'),
+    *('images_over_wifi', 'look_inside', 'move_arms', 'navigate', 'objects', 'robot_model'),
+    *('ros_tutorials', 'simulation', 'sweep', 'take_things', 'tell_the_robot', 'train'),
+    'use_your_own_yolo_model',
 )
 """Pages that take twenty seconds or more beside other tests: `story_docs.py` does them.
 

@@ -2,8 +2,8 @@
 """Runs every test of the workspace.
 
 Those of tools/ in several processes, and beside them those of src/ with `colcon test`, as many
-packages at a time as there is room for; then what builds src/. ament's linters are left out, which
-`make check` runs for all packages at once.
+packages at a time as there is room for; then what builds src/. Two kinds are left out: ament's
+linters, which `make check` runs for all packages at once, and stories, which `make stories` runs.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
 than three of that kind are a failure. Everything together is given 70 minutes.
@@ -57,7 +57,7 @@ WATCHED = (
 colcon gives pytest its own PYTEST_ADDOPTS.
 """
 _CORES_OF_OTHERS = 0.5
-_NO_LINTERS = ('-m', 'not linter')
+_LEFT_OUT = ('-m', 'not linter and not story')
 _LAST_WORDS_S = 10.0
 _POLL_S = 0.2
 _ENDS = (0, 1, 5)  # of pytest: passed, failed, nothing to run
@@ -253,10 +253,10 @@ def _package(name: str) -> Suite:
     test += ['colcon', '--log-base', f'log/tests of {name}', 'test']
     test += ['--executor', 'sequential', '--event-handlers', 'console_cohesion-']
     test += ['--packages-select', name]
-    again = [*test, '--packages-select-test-failures', '--pytest-args', *_NO_LINTERS]
+    again = [*test, '--packages-select-test-failures', '--pytest-args', *_LEFT_OUT]
     again += ['--last-failed']
     cores = LONGEST.get(name, _CORES_OF_OTHERS)
-    test += ['--pytest-args', *_NO_LINTERS, '--cache-clear']
+    test += ['--pytest-args', *_LEFT_OUT, '--cache-clear']
     return Suite(name, test, again, reports, cores)
 
 

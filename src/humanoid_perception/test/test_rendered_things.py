@@ -176,7 +176,7 @@ def apartment() -> Apartment:
     return Apartment()
 
 
-@pytest.fixture(scope='module', params=['rays', 'egl'])
+@pytest.fixture(scope='module', params=[pytest.param('rays', marks=pytest.mark.story), 'egl'])
 def seen(request, apartment: Apartment) -> list[Shown]:
     """Draw all views in one of the ways."""
     if request.param == 'rays':

@@ -18,10 +18,10 @@ LIMBS = {'left_shoulder_roll': 0.4, 'right_shoulder': -0.3, 'left_knee': 0.3, 'w
 @pytest.mark.parametrize(
     ('roll_rad', 'pitch_rad', 'hands'),
     [
-        (0.0, -math.pi / 2, False),
+        pytest.param(0.0, -math.pi / 2, False, marks=pytest.mark.story),
         (0.0, math.pi / 2, False),
-        (-math.pi / 2, 0.1, False),
-        (math.pi / 2, 0.1, False),
+        pytest.param(-math.pi / 2, 0.1, False, marks=pytest.mark.story),
+        pytest.param(math.pi / 2, 0.1, False, marks=pytest.mark.story),
         (0.0, -math.pi / 2, True),
     ],
     ids=['back', 'face', 'left', 'right', 'hands'],

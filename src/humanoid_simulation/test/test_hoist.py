@@ -79,7 +79,9 @@ def test_it_gives_up_on_what_does_not_stand() -> None:
     assert states[-1].position_m[2] < 0.2
 
 
-@pytest.mark.parametrize('keyframe', ['lying_on_back', 'lying_on_face'])
+@pytest.mark.parametrize(
+    'keyframe', [pytest.param('lying_on_back', marks=pytest.mark.story), 'lying_on_face']
+)
 def test_a_robot_that_lies_stands_up(make_backend, keyframe: str) -> None:
     """Its walker takes the posture of standing while it hangs, and then it stands by itself."""
     backend, drives = make_backend(), load_drives()

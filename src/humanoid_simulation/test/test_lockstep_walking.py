@@ -26,7 +26,7 @@ def walked(robot: LockstepRobot) -> PlanarPose:
     return robot.pose
 
 
-@pytest.mark.parametrize('periods', [1, 2])
+@pytest.mark.parametrize('periods', [pytest.param(1, marks=pytest.mark.story), 2])
 def test_old_observations(periods: int) -> None:
     """With 10 and 20 ms of latency it goes more slowly, but where it is to."""
     end = walked(LockstepRobot(BackendSettings(latency_periods=periods)))
@@ -71,11 +71,11 @@ CORNER = Thing('cupboard', 'box', (0.8, 0.3, 1.0), (0.5, 0.56, 0.5), (0.0, 0.0, 
     ('obstacle', 'velocity'),
     [
         (WALL, (0.5, 0.0)),
-        (EDGE, (0.3, 0.0)),
-        (BEHIND, (-0.2, 0.0)),
-        (BESIDE, (0.0, 0.15)),
+        pytest.param(EDGE, (0.3, 0.0), marks=pytest.mark.story),
+        pytest.param(BEHIND, (-0.2, 0.0), marks=pytest.mark.story),
+        pytest.param(BESIDE, (0.0, 0.15), marks=pytest.mark.story),
         (BOARD, (0.0, -0.13)),
-        (CORNER, (0.4, 0.0)),
+        pytest.param(CORNER, (0.4, 0.0), marks=pytest.mark.story),
     ],
     ids=['wall', 'edge of a table', 'behind', 'beside', 'board at its thighs', 'corner'],
 )
@@ -122,6 +122,7 @@ def test_a_reset_while_walking_forgets_the_walk() -> None:
     assert robot.pose.position_m.real > 0.3
 
 
+@pytest.mark.story
 def test_a_square_by_odometry() -> None:
     """The drive of the example leads a robot that really steps round its square, and stops it."""
     robot = LockstepRobot()

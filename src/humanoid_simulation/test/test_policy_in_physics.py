@@ -58,7 +58,7 @@ def test_it_gets_up(robot: LockstepRobot) -> None:
     assert walking.control.manager.claims.trouble == ''
 
 
-@pytest.mark.parametrize('mode', ['follow', 'hold'])
+@pytest.mark.parametrize('mode', [pytest.param('follow', marks=pytest.mark.story), 'hold'])
 def test_nothing_watches_for_a_fall_while_joints_are_held(mode: str) -> None:
     """It lies there stiffly, until it is to walk: then it gets up."""
     robot = LockstepRobot(BackendSettings(noise=REALISTIC, seed=1))

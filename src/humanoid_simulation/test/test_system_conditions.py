@@ -15,6 +15,7 @@ STEPS = 200
 CALLS = 8
 
 
+@pytest.mark.story
 def test_ten_milliseconds_of_latency() -> None:
     """It walks, turns and stops."""
     with simulated_robot(latency_periods='1') as robot:
@@ -41,6 +42,7 @@ def end_of_walk() -> PlanarPose:
         return robot.pose
 
 
+@pytest.mark.story
 def test_the_same_seed_is_the_same_walk() -> None:
     """Two simulators that are stepped alike lead the robot to the same place, bit for bit."""
     first = end_of_walk()

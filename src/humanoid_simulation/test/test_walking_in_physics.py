@@ -193,7 +193,7 @@ def test_it_walks_with_bad_sensors_and_late(make_backend: Callable[..., MujocoBa
     assert robot.phase == 'stand'
 
 
-@pytest.mark.parametrize('seed', [0, 1])
+@pytest.mark.parametrize('seed', [pytest.param(0, marks=pytest.mark.story), 1])
 def test_it_bears_missed_ticks(make_backend: Callable[..., MujocoBackend], seed: int) -> None:
     """Ticks that are missed for 10 to 100 ms, again and again, do not make it fall."""
     drop_outs = DropOuts(np.random.default_rng(seed), 0.02, 10)
