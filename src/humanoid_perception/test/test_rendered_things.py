@@ -13,7 +13,7 @@ from humanoid_perception.detector_choice import DetectorParameters, make_detecto
 from humanoid_perception.lifting import camera_of, lift, surface_of
 from humanoid_simulation.camera import CameraView
 from humanoid_simulation.camera.gl_painter import GlPainter
-from humanoid_simulation.camera.images import SEEN_GROUPS
+from humanoid_simulation.camera.images import see_all, SEEN_GROUPS
 from humanoid_simulation.camera.pinhole import pinhole_of
 from humanoid_simulation.camera.ray_painter import RayPainter
 from humanoid_simulation.model import build_world, humanoid, in_world, Physics, Placement
@@ -54,6 +54,7 @@ class Apartment:
         self.detector = make_detector(DetectorParameters())
         self.rays = self.pinhole.rays().reshape(-1, 3)
         self._bodies: dict[bytes, np.ndarray] = {}
+        see_all(self.model)
         mujoco.mj_forward(self.model, self.data)
 
     def look(self, eye_m: np.ndarray, at_m: np.ndarray) -> None:
