@@ -231,7 +231,21 @@ def _launch_with_guards(launcher: Start, stubs: Stubs, wait_until: Wait) -> Any:
     kinds = ('session', 'daemon', 'bare')
     launch = launcher(stubs.processes(kinds))
     wait_until(lambda: stubs.are_ready(kinds) and len(_guards(launch)) == 2)
+    # From then on the kernel wakes them if somebody stops them.
+    wait_until(lambda: all(_flags_of_stdin(guard) & os.O_ASYNC for guard in _guards(launch)))
     return launch
+
+
+def _flags_of_stdin(pid: int) -> int:
+    lines = Path(f'/proc/{pid}/fdinfo/0').read_text().splitlines()
+    return int(next(line for line in lines if line.startswith('flags:')).split()[1], 8)
+
+
+def _is_stopped(pid: int) -> bool:
+    try:
+        return Path(f'/proc/{pid}/stat').read_text().rpartition(')')[2].split()[0] == 'T'
+    except OSError:
+        return False
 
 
 def _kill(launch: Any, *others: int) -> None:
@@ -253,10 +267,12 @@ def test_each_guard_alone_is_enough(launcher: Start, stubs: Stubs, wait_until: W
 def test_guards_that_were_stopped(launcher: Start, stubs: Stubs, wait_until: Wait) -> None:
     """Guards that someone has stopped are woken up when the launch is killed."""
     launch = _launch_with_guards(launcher, stubs, wait_until)
-    for guard in _guards(launch):
+    guards = _guards(launch)
+    for guard in guards:
         os.kill(guard, signal.SIGSTOP)
+    wait_until(lambda: all(map(_is_stopped, guards)))
     _kill(launch)
-    wait_until(lambda: not stubs.living())
+    wait_until(lambda: not stubs.living() and not any(map(_is_stopped, guards)))
 
 
 def test_guards_that_were_killed(launcher: Start, stubs: Stubs, wait_until: Wait) -> None:

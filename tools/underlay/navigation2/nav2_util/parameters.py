@@ -114,6 +114,8 @@ class ParameterServer:
         self._by_prefix: dict[tuple[str, type], ParameterSet[Any]] = {}
         self._complained: set[str] = set()
         self._unsupported: dict[str, Unsupported] = {}
+        self._without_effect: dict[str, Unsupported] = {}
+        """Those of `_unsupported` that are declared."""
         node.add_on_set_parameters_callback(self._check)
 
     def declare(self, kind: type[ParametersT], prefix: str = '') -> ParameterSet[ParametersT]:
@@ -184,7 +186,10 @@ class ParameterServer:
         self, names: Mapping[str, str | Unsupported], prefix: str = ''
     ) -> None:
         """
-        Warn about each given parameter of Nav2 that is not supported, once.
+        Name parameters of Nav2 that are not supported.
+
+        `report` warns about those that are given and declares them, so that they can be read and
+        set as in Nav2; without a value, only those with a usual value are declared.
 
         Parameters
         ----------
@@ -226,7 +231,7 @@ class ParameterServer:
         return {name.removeprefix(prefix): given.pop(name) for name in names}
 
     def report(self) -> None:
-        """Log given parameters without effect, and suggest similar names."""
+        """Log given parameters without effect, suggest similar names, and declare the others."""
         unknown = [
             name
             for name in self.given
@@ -249,6 +254,18 @@ class ParameterServer:
                 else f'The parameters {", ".join(names)} have'
             )
             log.warning(f'{which} no effect: {instead}.')
+        self._declare_without_effect()
+
+    def _declare_without_effect(self) -> None:
+        for name, unsupported in self._unsupported.items():
+            if self._node.has_parameter(name) or not (unsupported.usual or name in self.given):
+                continue
+            default = unsupported.usual[0] if unsupported.usual else self.given[name].value
+            description = f'Without effect: {unsupported.instead}.'
+            self._node.declare_parameter(
+                name, default, ParameterDescriptor(description=description, dynamic_typing=True)
+            )
+            self._without_effect[name] = unsupported
 
     def _advice(self, name: str) -> str:
         known = [*self._node.list_parameters([], 0).names, *self._unsupported]
@@ -289,6 +306,12 @@ class ParameterServer:
 
     def _check(self, parameters: Sequence[Parameter]) -> SetParametersResult:
         """Reject invalid values; replace the snapshots of the others."""
+        for each in parameters:
+            unsupported = self._without_effect.get(each.name)
+            if unsupported is not None and unsupported.needs_warning(each.value):
+                self._node.get_logger().warning(
+                    f'The parameter {each.name!r} has no effect: {unsupported.instead}.'
+                )
         changed: dict[int, tuple[ParameterSet[Any], dict[str, Any]]] = {}
         for each in parameters:
             for found, name in self._sets.get(each.name, ()):

@@ -213,3 +213,21 @@ def test_usual_values_without_effect_need_no_word(made, capfd, given, said):
     )
     server.report()
     assert _said(capfd) == said
+
+
+def test_parameters_without_effect_are_read_and_set(made, capfd):
+    """They are declared by their values or usual values; a value that promises more is said."""
+    node, server = made(b=1669)
+    reason = 'it is never so'
+    names = {each: Unsupported(reason) for each in ('b', 'not_given')}
+    server.declare_unsupported({'a': Unsupported(reason, (False,)), **names})
+    server.report()
+    assert (node.get_parameter('a').value, node.get_parameter('b').value) == (False, 1669)
+    assert not node.has_parameter('not_given')
+    assert node.describe_parameter('a').description == 'Without effect: it is never so.'
+    assert _said(capfd) == []
+    assert _set(node, 'a', False).successful and _set(node, 'b', 1670).successful
+    assert _said(capfd) == []
+    assert _set(node, 'a', True).successful
+    assert _said(capfd) == ["The parameter 'a' has no effect: it is never so."]
+    assert node.get_parameter('a').value is True

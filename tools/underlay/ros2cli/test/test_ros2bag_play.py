@@ -16,6 +16,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from ros2bag.storage.metadata import Topic
 from ros2bag.storage.offered_qos import OfferedQos
+from rosbag2_interfaces.msg import ReadSplitEvent
 from rosbag2_interfaces.srv import (
     Burst,
     GetRate,
@@ -124,6 +125,21 @@ def test_play_is_complete_and_in_order(ear: Ear, start_ros2: Start, tmp_path: Pa
     assert ear.texts('/ticks') == [str(number) for number in range(50)]
     assert ear.texts('/description') == ['<robot/>']
     assert 'Played 51 messages.' in errors
+
+
+def test_next_files_are_announced(ear: Ear, start_ros2: Start, tmp_path: Path) -> None:
+    """When messages come from another file of the bag, a topic names both."""
+    folder = tmp_path / 'bag'
+    write_bag(folder, count=90, max_duration_ns=250 * MS)
+    ear.listen('/ticks')
+    ear.listen('/events/read_split', ReadSplitEvent)
+    ear.spin_with(start_ros2('bag', 'play', str(folder)))
+    assert ear.texts('/ticks') == [str(number) for number in range(90)]
+    told = [each for name, each, _ in ear.heard if name == '/events/read_split']
+    paths = [str(folder / f'bag_{number}.mcap') for number in range(len(told) + 1)]
+    assert [each.closed_file for each in told] == paths[:-1]
+    assert [each.opened_file for each in told] == paths[1:]
+    assert len(told) >= 2 and not (folder / f'bag_{len(paths)}.mcap').exists()
 
 
 @pytest.mark.parametrize('rate', [1.0, 2.0])

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import takewhile
 from typing import Any
 
@@ -31,10 +31,12 @@ from ros2bag.storage.service_events import event_topic, service_of
 from ros2cli.names import absolute
 from ros2cli.node.direct import DirectNode
 from ros_environment.suggestions import did_you_mean
+from rosbag2_interfaces.msg import ReadSplitEvent
 
 __all__ = ['play']
 
 NODE_NAME = 'rosbag2_player'
+SPLIT_TOPIC = 'events/read_split'
 NS_PER_S = 1_000_000_000
 
 
@@ -69,12 +71,17 @@ def play(args: argparse.Namespace) -> None:
         clock = _clock(node, names.get(CLOCK_TOPIC, CLOCK_TOPIC), outlets.topics, args)
         switch = PauseSwitch(args.start_paused, node.get_logger().info)
         start_ns = reader.metadata.span.start_ns + int(args.start_offset * NS_PER_S)
-        head = _head(reader, outlets.topics, start_ns, args)
+        events = node.create_publisher(ReadSplitEvent, SPLIT_TOPIC, 10)
+
+        def tell_of_split(closed: str, opened: str) -> None:
+            events.publish(ReadSplitEvent(closed_file=closed, opened_file=opened))
+
+        head = _head(reader, outlets.topics, start_ns, args, tell_of_split)
         pacing = Pacing(start_ns, args.rate)
         player = Player(node, outlets, clock, switch, keyboard, head, pacing)
         offer_pause_services(node, switch)
         offer_player_services(node, player, reader.metadata.span)
-        outlets.wait_for_subscribers(*([clock.publisher] if clock else []))
+        outlets.wait_for_subscribers(events, *([clock.publisher] if clock else []))
         if args.start_paused:
             node.get_logger().info('Paused: press SPACE or call the service ~/resume to start.')
         _play_all(player, reader, start_ns, node, args)
@@ -133,11 +140,17 @@ def _warn_of_unknown_topics(reader: Bags, args: argparse.Namespace, logger: Any)
         )
 
 
-def _head(reader: Bags, topics: list[str], start_ns: int, args: argparse.Namespace) -> PlayHead:
+def _head(
+    reader: Bags,
+    topics: list[str],
+    start_ns: int,
+    args: argparse.Namespace,
+    on_split: Callable[[str, str], None],
+) -> PlayHead:
     end_ns = end_of_playback_ns(args, start_ns)
 
     def messages_from(time_ns: int) -> Iterator[RecordedMessage]:
-        messages = reader.messages(topics, time_ns)
+        messages = reader.messages(topics, time_ns, on_split)
         return takewhile(lambda message: message.log_ns <= end_ns, messages)
 
     return PlayHead(messages_from, start_ns, args.num_messages)

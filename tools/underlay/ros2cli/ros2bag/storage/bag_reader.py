@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 import os
 import struct
@@ -104,7 +104,10 @@ class BagReader:
                 describe_file(path)
 
     def messages(
-        self, topics: Collection[str] | None = None, start_ns: int = 0
+        self,
+        topics: Collection[str] | None = None,
+        start_ns: int = 0,
+        on_split: Callable[[str, str], None] = lambda *_: None,
     ) -> Iterator[RecordedMessage]:
         """
         Read the messages file by file, within a file in the order of their log times.
@@ -115,6 +118,9 @@ class BagReader:
             The names of the topics to read; None for all.
         start_ns
             The earliest log time, in ns since the epoch.
+        on_split
+            Called before the first message of another file with the path of the file that was
+            read and that of the one that messages come from now.
 
         Yields
         ------
@@ -127,6 +133,7 @@ class BagReader:
             A file is missing or unreadable; BrokenFile if it is truncated or damaged.
 
         """
+        read = ''
         for path in self._paths():
             with self._plain(path) as plain:
                 messages = _messages_of(plain, topics, start_ns)
@@ -134,7 +141,11 @@ class BagReader:
                     from ros2bag.storage.compressed import with_plain_data
 
                     messages = with_plain_data(messages)
-                yield from messages
+                for message in messages:
+                    if read not in ('', path):
+                        on_split(read, path)
+                    read = path
+                    yield message
 
     def definitions(self) -> dict[str, Definition]:
         """

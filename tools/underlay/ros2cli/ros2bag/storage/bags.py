@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from heapq import merge
 
@@ -52,14 +52,17 @@ class Bags:
             reader.check()
 
     def messages(
-        self, topics: Collection[str] | None = None, start_ns: int = 0
+        self,
+        topics: Collection[str] | None = None,
+        start_ns: int = 0,
+        on_split: Callable[[str, str], None] = lambda *_: None,
     ) -> Iterator[RecordedMessage]:
         """
         Read messages in the order of log time.
 
         Parameters
         ----------
-        topics, start_ns
+        topics, start_ns, on_split
             As for `BagReader.messages`.
 
         Returns
@@ -68,7 +71,7 @@ class Bags:
             Of all bags.
 
         """
-        streams = [reader.messages(topics, start_ns) for reader in self._readers]
+        streams = [reader.messages(topics, start_ns, on_split) for reader in self._readers]
         return streams[0] if len(streams) == 1 else iter(merge(*streams, key=_time))
 
     def definition(self, type_name: str) -> Definition:
