@@ -26,7 +26,7 @@ from humanoid_control.controllers import (
     TrajectoryPoint,
     TrajectoryRequest,
 )
-from humanoid_control.hosting.controller_services import controllers_of, switch
+from humanoid_control.hosting.controller_switch import controllers_of, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_robot import MockRobot
 from humanoid_control.testing import JOINTS, LIMITS, observed

@@ -14,7 +14,7 @@ from humanoid_control.controllers import (
     hold_mode,
 )
 from humanoid_control.controllers.gripper_controller import gripper_controllers
-from humanoid_control.hosting.controller_services import controllers_of, Strictness, switch
+from humanoid_control.hosting.controller_switch import controllers_of, Strictness, switch
 from humanoid_control.hosting.robot_control import RobotControl
 from humanoid_control.mock_backend import MockBackend
 from humanoid_description.drives import load_drives

@@ -23,6 +23,7 @@ import numpy as np
 from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from trajectory_msgs.msg import JointTrajectoryPoint
 
 __all__ = ['Arms']
 
@@ -231,19 +232,8 @@ class Arms:
             ways.append((self._waist, waist, waist_speed))
         movers = [mover for mover, _, _ in ways]
         for mover, positions, velocities in ways:
-            # Without the first point: the trajectory starts at the last commanded positions.
-            mover.send(
-                [
-                    trajectory_point(time_s, position, velocity)
-                    for time_s, position, velocity in zip(
-                        motion.times_s[1:].tolist(),
-                        positions[1:].tolist(),
-                        velocities[1:].tolist(),
-                    )
-                ],
-                _OFF_RAD,
-                _LATE_GOAL_S,
-            )
+            points = _points(motion.times_s, positions, velocities)
+            mover.send(points, _OFF_RAD, _LATE_GOAL_S)
         end_s = clock_s(self._node) + motion.duration_s + _LATE_S
         try:
             while not all(mover.has_arrived() for mover in movers):
@@ -296,3 +286,9 @@ class Arms:
                 self._node, [body.waist], 'waist_controller', _CODE, guard=self._guard
             )
         self._body = body
+
+
+def _points(times_s: Array, positions: Array, velocities: Array) -> list[JointTrajectoryPoint]:
+    """Build a trajectory without its first point: it starts at the last commanded positions."""
+    rows = zip(times_s[1:].tolist(), positions[1:].tolist(), velocities[1:].tolist())
+    return [trajectory_point(*row) for row in rows]

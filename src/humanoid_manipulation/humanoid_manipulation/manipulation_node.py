@@ -9,20 +9,20 @@ from typing import Any
 from humanoid_common.goal_guard import GoalGuard
 from humanoid_common.node_parameters import NodeParameters
 from humanoid_common.parameters import parameter
-from humanoid_common.qos import LATCHED
+from humanoid_common.qos import LATCHED, SENSOR
 from humanoid_description.drives import SIDES
 from humanoid_manipulation.arms import Arms
 from humanoid_manipulation.feet import Feet
-from humanoid_manipulation.hands import Hands
+from humanoid_manipulation.hands import Hands, has_lost
 from humanoid_manipulation.held_things import held_objects, HeldThings
-from humanoid_manipulation.slip_watch import SlipWatch
 from humanoid_manipulation.surroundings import Surroundings
 from humanoid_perception.transforms import Transforms
 from rclpy.node import Node
+from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 from vision_msgs.msg import Detection3DArray
 
-__all__ = ['ManipulationNode', 'ManipulatorParameters']
+__all__ = ['ManipulationNode', 'ManipulatorParameters', 'SlipWatch']
 
 
 @dataclass(frozen=True)
@@ -97,3 +97,50 @@ class ManipulationNode(Node):
         grippers = {side: arm.gripper for side, arm in self.arms.body.arms.items()}
         self._held.publish(held_objects(self.held, grippers, header))
         self._slips.update()
+
+
+class SlipWatch:
+    """
+    Compares the gaps of the grippers with those of the grasps while no goal runs.
+
+    It subscribes to the joint states only while something is held, because of their rate. A goal
+    checks the hands itself.
+
+    Parameters
+    ----------
+    node
+        The node that owns the subscription.
+    arms
+        Tells whether a goal runs, and which joints are those of the grippers.
+    held
+        The held objects; one that is lost is removed.
+
+    """
+
+    def __init__(self, node: Node, arms: Arms, held: HeldThings) -> None:
+        self._node, self._arms, self._held = node, arms, held
+        self._subscription: Any = None
+
+    def update(self) -> None:
+        """Start to watch if something is held, else stop. Call after each change."""
+        if self._held and self._subscription is None:
+            self._subscription = self._node.create_subscription(
+                JointState, 'joint_states', self._take, SENSOR
+            )
+        elif not self._held and self._subscription is not None:
+            # Not at once: this may be called by the subscription itself.
+            subscription, self._subscription = self._subscription, None
+            assert self._node.executor is not None
+            self._node.executor.create_task(self._node.destroy_subscription, subscription)
+
+    def _take(self, message: JointState) -> None:
+        if self._arms.is_listening:
+            return
+        positions = dict(zip(message.name, message.position))
+        for side, held in list(self._held.items()):
+            finger_m = positions.get(self._arms.finger_of(side))
+            if finger_m is not None and has_lost(held, 2.0 * finger_m):
+                self._node.get_logger().warning(
+                    f'The {side} hand no longer holds {held.object_id}.'
+                )
+                del self._held[side]

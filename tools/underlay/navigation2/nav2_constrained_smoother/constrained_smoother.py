@@ -197,7 +197,7 @@ class ConstrainedSmoother(Smoother):
             self._cost_weights(points, cusps),
             1.0 / radius if radius > 0.0 else np.inf,
             np.array(checked, float).reshape(-1, 3),
-            is_reversed,
+            bool(is_reversed),
         )
         termination = Termination(
             values.max_iterations, values.fn_tol, values.gradient_tol, values.param_tol

@@ -7,10 +7,20 @@ from dataclasses import dataclass
 import math
 from typing import Any, NamedTuple
 
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.parameter import Parameter
 from ros_environment.suggestions import closest_name
 
-__all__ = ['Spec', 'Unsupported', 'check_limits', 'coerced', 'typed_parameter']
+__all__ = [
+    'Spec',
+    'Unsupported',
+    'check_limits',
+    'coerced',
+    'make_descriptor',
+    'typed_parameter',
+]
+
+_HUGE = 1e300
 
 
 @dataclass(frozen=True)
@@ -143,3 +153,30 @@ def check_limits(value: Any, spec: Spec) -> None:
             raise ValueError(f'must be at least {spec.low:g}, but is {each:g}')
         if spec.high is not None and each > spec.high:
             raise ValueError(f'must be at most {spec.high:g}, but is {each:g}')
+
+
+def make_descriptor(name: str, default: Any, spec: Spec) -> ParameterDescriptor:
+    """
+    Make the descriptor of a parameter, with its limits or choices.
+
+    Parameters
+    ----------
+    name, default, spec
+        The full name, the default and the specification of the parameter.
+
+    """
+    descriptor = ParameterDescriptor(
+        name=name, description=spec.description, read_only=spec.read_only, dynamic_typing=True
+    )
+    if isinstance(default, float) and (spec.low is not None or spec.high is not None):
+        low = -_HUGE if spec.low is None else spec.low
+        high = _HUGE if spec.high is None else spec.high
+        descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
+    elif isinstance(default, int) and spec.low is not None and spec.high is not None:
+        descriptor.integer_range = [
+            IntegerRange(from_value=int(spec.low), to_value=int(spec.high))
+        ]
+    if spec.choices:
+        allowed = ', '.join(str(choice) for choice in spec.choices)
+        descriptor.additional_constraints = f'One of {allowed}.'
+    return descriptor

@@ -11,16 +11,12 @@ from nav2_util.errors import ConfigurationError
 from nav2_util.parameter_values import (
     check_limits,
     coerced,
+    make_descriptor,
     Spec,
     typed_parameter,
     Unsupported,
 )
-from rcl_interfaces.msg import (
-    FloatingPointRange,
-    IntegerRange,
-    ParameterDescriptor,
-    SetParametersResult,
-)
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.parameter import Parameter
 from ros_environment.suggestions import did_you_mean
@@ -31,7 +27,6 @@ if TYPE_CHECKING:
 __all__ = ['ParameterServer', 'ParameterSet', 'Unsupported', 'parameter']
 
 ParametersT = TypeVar('ParametersT')
-_HUGE = 1e300
 _QOS_OVERRIDES = '.allow_parameter_qos_overrides'
 
 
@@ -283,20 +278,7 @@ class ParameterServer:
                 raise ConfigurationError(f"The parameter '{name}' {error}.") from error
             # rclpy does not accept integers for floating-point numbers; parameter files mix them.
             self.given[name] = typed_parameter(name, value, default)
-        descriptor = ParameterDescriptor(
-            name=name, description=spec.description, read_only=spec.read_only, dynamic_typing=True
-        )
-        if isinstance(default, float) and (spec.low is not None or spec.high is not None):
-            low = -_HUGE if spec.low is None else spec.low
-            high = _HUGE if spec.high is None else spec.high
-            descriptor.floating_point_range = [FloatingPointRange(from_value=low, to_value=high)]
-        elif isinstance(default, int) and spec.low is not None and spec.high is not None:
-            descriptor.integer_range = [
-                IntegerRange(from_value=int(spec.low), to_value=int(spec.high))
-            ]
-        if spec.choices:
-            allowed = ', '.join(str(choice) for choice in spec.choices)
-            descriptor.additional_constraints = f'One of {allowed}.'
+        descriptor = make_descriptor(name, default, spec)
         try:
             declared = self._node.declare_parameter(name, default, descriptor)
         except InvalidParameterTypeException as error:

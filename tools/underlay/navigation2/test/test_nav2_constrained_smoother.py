@@ -35,7 +35,7 @@ def curvatures(points: np.ndarray) -> np.ndarray:
 
 
 def ridge(height: float = 200.0) -> Costmap2D:
-    """Return a costmap of 6 by 6 m from (-1, -3), whose costs fall with the distance from y = 0."""
+    """Return a costmap of 6 by 6 m from (-1, -3): costs fall with the distance from y = 0."""
     y = -3.0 + 0.05 * (np.arange(120) + 0.5)
     costs = height * np.clip(1.0 - np.abs(y), 0.0, 1.0)
     cells = np.repeat(costs[:, None], 120, axis=1).astype(np.uint8)

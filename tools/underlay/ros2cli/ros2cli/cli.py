@@ -28,6 +28,7 @@ INTERRUPT_STATUS = 2  # the number of SIGINT
 TERMINATION_STATUS = 15  # the number of SIGTERM
 COMPLETION_VARIABLE = '_ARGCOMPLETE'
 COMMAND_GROUP = 'ros2cli.command'
+CHOSEN_COMMAND = 'chosen_command'  # attribute of the parsed arguments
 COMMANDS = {
     'action': Entry('ros2cli.commands:ActionCommand', 'Various action related sub-commands'),
     'bag': Entry('ros2cli.commands:BagCommand', 'Various rosbag related sub-commands'),
@@ -108,7 +109,7 @@ def _run_command(argv: list[str]) -> int | str | None:
     args = parser.parse_args(argv)
     if not args.use_python_default_buffering and isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)
-    command = getattr(args, '_command', None)
+    command = getattr(args, CHOSEN_COMMAND, None)
     if command is None:
         parser.print_help()
         return 0
@@ -150,7 +151,7 @@ def create_parser(
         entries=COMMANDS,
         group=COMMAND_GROUP,
         kind='command',
-        dest='_command',
+        dest=CHOSEN_COMMAND,
         argv=argv,
     )
     return parser

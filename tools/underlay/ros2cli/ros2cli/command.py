@@ -8,7 +8,10 @@ from collections.abc import Mapping, Sequence
 
 from ros2cli.entry import add_lazy_subparsers, add_subparsers_on_demand, Entry
 
-__all__ = ['CommandExtension', 'VerbCommand', 'add_subparsers_on_demand']
+__all__ = ['CHOSEN_VERB', 'CommandExtension', 'VerbCommand', 'add_subparsers_on_demand']
+
+CHOSEN_VERB = 'chosen_verb'
+"""The attribute of the parsed arguments that is the verb; there is none if none was named."""
 
 
 class CommandExtension:
@@ -92,7 +95,7 @@ class VerbCommand(CommandExtension):
             entries=self.VERBS,
             group=self.VERB_GROUP,
             kind='verb',
-            dest='_verb',
+            dest=CHOSEN_VERB,
             argv=argv,
         )
 
@@ -117,7 +120,7 @@ class VerbCommand(CommandExtension):
             What the verb returns; 0 after the help.
 
         """
-        verb = getattr(args, '_verb', None)
+        verb = getattr(args, CHOSEN_VERB, None)
         if verb is None:
             self._parser.print_help()
             return 0

@@ -6,7 +6,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Mapping, Sequence
 
-from ros2cli.command import VerbCommand
+from ros2cli.command import CHOSEN_VERB, VerbCommand
 from ros2cli.entry import Entry
 
 
@@ -80,7 +80,7 @@ class DoctorCommand(VerbCommand):
             What the verb returns; without one 0, or 1 if a check failed.
 
         """
-        if hasattr(args, '_verb'):
+        if hasattr(args, CHOSEN_VERB):
             return super().main(parser=parser, args=args)
         from ros2doctor.api.examining import examine, print_reports
 

@@ -182,3 +182,126 @@ def test_vectors() -> None:
     assert tf.random_vector(5).shape == (5,)
     rotation = tf.random_rotation_matrix()[:3, :3]
     assert rotation @ rotation.T == pytest.approx(np.eye(3))
+
+
+def test_shears_are_found_again() -> None:
+    """With their angle, plane and direction."""
+    shear = tf.shear_matrix(0.7, (1.0, -2.0, 0.0), (0.3, 0.4, 0.5), (2.0, 1.0, 4.0))
+    angle, direction, point, normal = tf.shear_from_matrix(shear)
+    assert angle == pytest.approx(0.7)
+    assert shear @ point == pytest.approx(point)
+    assert tf.shear_matrix(angle, direction, point, normal) == pytest.approx(shear)
+    for other in (np.eye(4), tf.rotation_matrix(0.5, (1, 0, 0)), tf.scale_matrix(2.0)):
+        with pytest.raises(ValueError, match='not a shear'):
+            tf.shear_from_matrix(other)
+
+
+POINT, NORMAL = np.array([0.2, -1.0, 0.7]), np.array([0.0, 0.6, 0.8])
+
+
+@pytest.mark.parametrize('direction', [None, (0.3, 1.0, 2.0)])
+def test_parallel_projections(direction: tuple[float, ...] | None) -> None:
+    """Points come to the plane along the direction, and those of the plane stay."""
+    matrix = tf.projection_matrix(POINT, NORMAL, direction)
+    place = np.array([4.0, 5.0, 6.0])
+    shadow = (matrix @ [*place, 1.0])[:3]
+    assert (shadow - POINT) @ NORMAL == pytest.approx(0.0)
+    assert np.cross(shadow - place, NORMAL if direction is None else direction) == pytest.approx(
+        np.zeros(3)
+    )
+    assert matrix @ [*shadow, 1.0] == pytest.approx([*shadow, 1.0])
+    point, normal, along, centre, pseudo = tf.projection_from_matrix(matrix)
+    assert centre is None and not pseudo
+    assert tf.projection_matrix(point, normal, along) == pytest.approx(matrix)
+
+
+def test_central_projections() -> None:
+    """Points come to the plane along lines through the centre; depth can be kept."""
+    centre, place = np.array([0.5, 4.0, 3.0]), np.array([1.0, 0.0, -2.0])
+    matrix = tf.projection_matrix(POINT, NORMAL, perspective=centre)
+    shadow = matrix @ [*place, 1.0]
+    shadow = shadow[:3] / shadow[3]
+    assert (shadow - POINT) @ NORMAL == pytest.approx(0.0)
+    assert np.cross(shadow - centre, place - centre) == pytest.approx(np.zeros(3), abs=1e-12)
+    point, normal, along, found, _ = tf.projection_from_matrix(3.0 * matrix)
+    assert along is None and found == pytest.approx(centre)
+    assert normal == pytest.approx(NORMAL) and (point[:3] - POINT) @ NORMAL == pytest.approx(0.0)
+
+    deep = tf.projection_matrix(POINT, NORMAL, perspective=centre, pseudo=True)
+    assert tf.is_same_transform(tf.projection_matrix(POINT, NORMAL) @ deep, matrix)
+    assert np.linalg.matrix_rank(deep) == 4
+    point, _, _, found, pseudo = tf.projection_from_matrix(deep, pseudo=True)
+    assert pseudo and found == pytest.approx(centre)
+    assert (point[:3] - POINT) @ NORMAL == pytest.approx(0.0)
+
+
+def test_what_is_no_projection_is_said() -> None:
+    """A rotation has an inverse."""
+    with pytest.raises(ValueError, match='not a projection'):
+        tf.projection_from_matrix(tf.rotation_matrix(0.5, (1, 0, 0)))
+
+
+@pytest.mark.parametrize('perspective', [False, True])
+def test_a_volume_is_mapped_to_a_cube(perspective: bool) -> None:
+    """Its corners become those of the cube; at the far face of a pyramid they are farther out."""
+    bounds = np.array([[-1.0, 2.0], [0.5, 1.5], [2.0, 6.0]])
+    matrix = tf.clip_matrix(*bounds.ravel(), perspective=perspective)
+    for far in (0, 1):
+        for x in (0, 1):
+            spread = bounds[2, far] / bounds[2, 0] if perspective else 1.0
+            corner = matrix @ [bounds[0, x] * spread, bounds[1, 1] * spread, bounds[2, far], 1.0]
+            assert corner / corner[3] == pytest.approx([2.0 * x - 1.0, 1.0, 2.0 * far - 1.0, 1.0])
+    with pytest.raises(ValueError, match='left < right'):
+        tf.clip_matrix(1, -1, 0, 1, 2, 3)
+    with pytest.raises(ValueError, match='near > 0'):
+        tf.clip_matrix(-1, 1, -1, 1, 0, 3, perspective=True)
+
+
+def test_cells_of_crystals() -> None:
+    """The edges have their lengths and angles; the sum of the matrix is as documented."""
+    lengths, angles = np.array([9.8, 12.0, 15.5]), np.array([87.2, 80.7, 69.7])
+    matrix = tf.orthogonalization_matrix(lengths, angles)
+    edges = matrix[:3, :3].T
+    assert np.linalg.norm(edges, axis=1) == pytest.approx(lengths)
+    for angle, (one, other) in zip(angles, [(1, 2), (0, 2), (0, 1)]):
+        cosine = edges[one] @ edges[other] / (lengths[one] * lengths[other])
+        assert math.degrees(math.acos(cosine)) == pytest.approx(angle)
+    assert matrix.sum() == pytest.approx(43.063229)
+
+
+def test_trackball() -> None:
+    """It turns as documented, free and about axes, and goes on turning."""
+    ball = tf.Arcball(initial=np.eye(4))
+    ball.place([320, 320], 320)
+    ball.down([500, 250])
+    assert ball.matrix() == pytest.approx(np.eye(4))
+    ball.drag([475, 275])
+    assert ball.matrix().sum() == pytest.approx(3.90583455)
+    once = ball.matrix()
+    ball.next()
+    assert ball.matrix() == pytest.approx(once @ once)
+
+    ball = tf.Arcball(initial=[0, 0, 0, 1])
+    ball.place([320, 320], 320)
+    ball.setaxes([1, 1, 0], [-1, 1, 0])
+    ball.setconstrain(True)
+    assert ball.getconstrain()
+    ball.down([400, 200])
+    ball.drag([200, 400])
+    assert ball.matrix().sum() == pytest.approx(0.2055924)
+    _, axis, _ = tf.rotation_from_matrix(ball.matrix())
+    assert np.abs(axis) == pytest.approx([0.5**0.5, 0.5**0.5, 0.0], abs=1e-9)
+    with pytest.raises(ValueError, match='quaternion or a 4x4 matrix'):
+        tf.Arcball([1.0, 2.0])
+
+
+def test_points_of_the_trackball() -> None:
+    """In the window y is downwards; beside the ball it is its outline."""
+    assert tf.arcball_map_to_sphere((4, 2), (4, 5), 5) == pytest.approx([0.0, 0.6, 0.8])
+    assert tf.arcball_map_to_sphere((14, 5), (4, 5), 5) == pytest.approx([1.0, 0.0, 0.0])
+    found = tf.arcball_constrain_to_axis((0.0, 0.6, 0.8), (0.0, 1.0, 0.0))
+    assert found == pytest.approx([0.0, 0.0, 1.0])
+    assert tf.arcball_constrain_to_axis((0, 0, 1), (0, 0, 1)) == pytest.approx([1.0, 0.0, 0.0])
+    assert tf.arcball_constrain_to_axis((0, 1, 0), (0, 1, 0)) == pytest.approx([-1.0, 0.0, 0.0])
+    axes = [(0.0, 1.0, 0.0), (1.0, 0.0, 0.0)]
+    assert tf.arcball_nearest_axis((0.0, 0.6, 0.8), axes) == pytest.approx([1.0, 0.0, 0.0])

@@ -6,6 +6,12 @@ Quaternions are (x, y, z, w). Matrices are homogeneous, of shape (4, 4), and mov
 columns. Angles are in rad.
 """
 
+from tf_transformations.arcball import (
+    Arcball,
+    arcball_constrain_to_axis,
+    arcball_map_to_sphere,
+    arcball_nearest_axis,
+)
 from tf_transformations.compositions import (
     compose_matrix,
     decompose_matrix,
@@ -22,9 +28,16 @@ from tf_transformations.matrices import (
     rotation_matrix,
     scale_from_matrix,
     scale_matrix,
+    shear_from_matrix,
     shear_matrix,
     translation_from_matrix,
     translation_matrix,
+)
+from tf_transformations.projections import (
+    clip_matrix,
+    orthogonalization_matrix,
+    projection_from_matrix,
+    projection_matrix,
 )
 from tf_transformations.rotations import (
     euler_from_matrix,
@@ -44,6 +57,11 @@ from tf_transformations.rotations import (
 from tf_transformations.vectors import random_vector, unit_vector, vector_norm
 
 __all__ = [
+    'Arcball',
+    'arcball_constrain_to_axis',
+    'arcball_map_to_sphere',
+    'arcball_nearest_axis',
+    'clip_matrix',
     'compose_matrix',
     'concatenate_matrices',
     'decompose_matrix',
@@ -53,6 +71,9 @@ __all__ = [
     'identity_matrix',
     'inverse_matrix',
     'is_same_transform',
+    'orthogonalization_matrix',
+    'projection_from_matrix',
+    'projection_matrix',
     'quaternion_about_axis',
     'quaternion_conjugate',
     'quaternion_from_euler',
@@ -70,6 +91,7 @@ __all__ = [
     'rotation_matrix',
     'scale_from_matrix',
     'scale_matrix',
+    'shear_from_matrix',
     'shear_matrix',
     'superimposition_matrix',
     'translation_from_matrix',

@@ -13,6 +13,7 @@ from tf_transformations.vectors import Array, unit_vector
 
 __all__ = [
     'concatenate_matrices',
+    'fixed_point',
     'identity_matrix',
     'inverse_matrix',
     'is_same_transform',
@@ -22,6 +23,7 @@ __all__ = [
     'rotation_matrix',
     'scale_from_matrix',
     'scale_matrix',
+    'shear_from_matrix',
     'shear_matrix',
     'translation_from_matrix',
     'translation_matrix',
@@ -98,7 +100,7 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array]:
     turn = Rotation.from_matrix(numbers[:3, :3]).as_rotvec()
     angle = float(np.linalg.norm(turn))
     direction = turn / angle if angle else np.array([0.0, 0.0, 1.0])
-    return angle, direction, _fixed_point(numbers)
+    return angle, direction, fixed_point(numbers)
 
 
 def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Array:
@@ -141,7 +143,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Array, Array]:
     normal = _eigenvector(numbers[:3, :3], -1.0)
     if normal is None:
         raise ValueError('The matrix is not a reflection: it reverses no direction')
-    return _fixed_point(numbers), normal
+    return fixed_point(numbers), normal
 
 
 def scale_matrix(
@@ -194,11 +196,11 @@ def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array | None]:
     if direction is not None:
         along = np.eye(3) + (factor - 1.0) * np.outer(direction, direction)
         if np.allclose(linear, along):
-            return factor, _fixed_point(numbers), direction
+            return factor, fixed_point(numbers), direction
     factor = float(np.trace(linear)) / 3.0
     if not np.allclose(linear, factor * np.eye(3)):
         raise ValueError('The matrix is not a uniform scaling: use decompose_matrix')
-    return factor, _fixed_point(numbers), None
+    return factor, fixed_point(numbers), None
 
 
 def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: ArrayLike) -> Array:
@@ -227,6 +229,35 @@ def shear_matrix(angle: float, direction: ArrayLike, point: ArrayLike, normal: A
     if abs(across @ along) > 1e-6:
         raise ValueError('A shear has a direction that is perpendicular to the normal')
     return _about(np.eye(3) + math.tan(angle) * np.outer(along, across), point)
+
+
+def shear_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array, Array]:
+    """
+    Compute the plane and the angle of a shear.
+
+    Parameters
+    ----------
+    matrix
+        The homogeneous matrix (4, 4) of a shear.
+
+    Returns
+    -------
+    tuple
+        The arguments of `shear_matrix`: the angle in rad, the direction, a point (x, y, z, 1) of
+        the plane, and its normal.
+
+    Raises
+    ------
+    ValueError
+        The matrix is no shear.
+
+    """
+    numbers = np.asarray(matrix, float)
+    left, sizes, right = np.linalg.svd(numbers[:3, :3] - np.eye(3))
+    along, across = left[:, 0], right[0]
+    if sizes[0] < 1e-9 or sizes[1] > 1e-6 or abs(along @ across) > 1e-6:
+        raise ValueError('The matrix is not a shear: it does not move points along one plane')
+    return math.atan(sizes[0]), along, fixed_point(numbers), across
 
 
 def inverse_matrix(matrix: ArrayLike) -> Array:
@@ -279,8 +310,16 @@ def _about(linear: Array, point: ArrayLike | None) -> Array:
     return matrix
 
 
-def _fixed_point(matrix: Array) -> Array:
-    """Return the point (x, y, z, 1), close to the origin, that a matrix leaves where it is."""
+def fixed_point(matrix: Array) -> Array:
+    """
+    Return the point (x, y, z, 1), close to the origin, that a matrix leaves where it is.
+
+    Parameters
+    ----------
+    matrix
+        The homogeneous matrix (4, 4), whose last row is (0, 0, 0, 1).
+
+    """
     place, *_ = np.linalg.lstsq(np.eye(3) - matrix[:3, :3], matrix[:3, 3], rcond=1e-9)
     return np.append(place, 1.0)
 

@@ -170,7 +170,8 @@ class Robot:
     A robot: its links, joints and materials, and how they are connected.
 
     `joint_map` and `link_map` have joints and links by name, `parent_map` the joint and the parent
-    of each child, `child_map` the joints and children of each parent, all by name.
+    of each child, `child_map` the joints and children of each parent, all by name. `others` has
+    the elements of other kinds, such as transmissions, as they were read.
 
     Parameters
     ----------
@@ -191,7 +192,7 @@ class Robot:
         self.joint_map: dict[str | None, Joint] = {}
         self.parent_map: dict[str | None, tuple[str | None, str | None]] = {}
         self.child_map: dict[str | None, list[tuple[str | None, str | None]]] = {}
-        self._others: list[Element] = []
+        self.others: list[Element] = []
 
     @classmethod
     def from_xml_string(cls, xml_string: str | bytes) -> Robot:
@@ -265,7 +266,7 @@ class Robot:
             elif each.tag == 'material':
                 robot.materials.append(Material.from_xml(each))
             elif isinstance(each.tag, str):
-                robot._others.append(each)
+                robot.others.append(each)
         return robot
 
     def add_link(self, link: Link) -> None:
@@ -378,7 +379,7 @@ class Robot:
         parts: list[Material | Link | Joint] = [*self.materials, *self.links, *self.joints]
         for each in parts:
             each.to_xml(element)
-        element.extend(self._others)
+        element.extend(self.others)
         return element
 
     def to_xml_string(self, addHeader: bool = True) -> str:  # noqa: N803

@@ -13,10 +13,10 @@ from typing import NamedTuple
 
 from mcap.records import Channel, Message, Schema
 from ros2bag.storage import BagError
-from ros2bag.storage.bag_reader import describe_file, read_metadata, topic_of
 from ros2bag.storage.bag_writer import RESERVE_NAME
 from ros2bag.storage.damage import damage_told
 from ros2bag.storage.definitions import Definition
+from ros2bag.storage.description import describe_file, read_metadata, topic_of
 from ros2bag.storage.mcap_file import is_being_written, McapFile
 from ros2bag.storage.metadata import FILE_NAME, merged, metadata_to_text
 from ros2bag.storage.salvage import Content, Salvage
