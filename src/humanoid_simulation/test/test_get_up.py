@@ -22,7 +22,7 @@ LIMBS = {'left_shoulder_roll': 0.4, 'right_shoulder': -0.3, 'left_knee': 0.3, 'w
         (0.0, math.pi / 2, False),
         pytest.param(-math.pi / 2, 0.1, False, marks=pytest.mark.story),
         pytest.param(math.pi / 2, 0.1, False, marks=pytest.mark.story),
-        (0.0, -math.pi / 2, True),
+        pytest.param(0.0, -math.pi / 2, True, marks=pytest.mark.story),
     ],
     ids=['back', 'face', 'left', 'right', 'hands'],
 )

@@ -32,6 +32,7 @@ def robot(simulation: RobotClient) -> RobotClient:
     return simulation
 
 
+@pytest.mark.story
 def test_it_stands(robot: RobotClient) -> None:
     """Nobody drives it, and it stays where it is; `story_standing.py` waits for a minute."""
     begin = robot.pose
@@ -79,6 +80,7 @@ def test_it_stands_and_walks_where_it_was_put(robot: RobotClient) -> None:
     assert robot.wait_until(lambda: begin.local(robot.pose.position_m).real > 0.5, 8.0)
 
 
+@pytest.mark.story
 def test_it_steps_sideways(robot: RobotClient) -> None:
     """Half a metre to the left, without turning."""
     begin = robot.pose
@@ -90,6 +92,7 @@ def test_it_steps_sideways(robot: RobotClient) -> None:
     assert abs(wrap_angle(robot.pose.yaw_rad - begin.yaw_rad)) < 0.1
 
 
+@pytest.mark.story
 def test_it_stops_within_three_seconds(robot: RobotClient) -> None:
     """From walking to standing still."""
     robot.drive(0.25)

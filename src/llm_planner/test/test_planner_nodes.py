@@ -235,7 +235,7 @@ class DeafExecutor(Node):
         return ExecutePlan.Result()
 
 
-@pytest.mark.parametrize(('deaf', 'goals'), [(1, 2), (9, 3)])
+@pytest.mark.parametrize(('deaf', 'goals'), [(1, 2), pytest.param(9, 3, marks=pytest.mark.story)])
 def test_a_plan_that_is_not_answered_is_sent_again(ros: RosSandbox, deaf: int, goals: int) -> None:
     """And if that does not help either, it is said."""
     robot, executor = ros.start(RobotStub), ros.start(DeafExecutor)

@@ -9,18 +9,17 @@ Unknown Semi-structured Environments, 2010.
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass
 import heapq
 import math
 import time
-from typing import NamedTuple
 
 from nav2_costmap_2d.costs import MAX_NON_OBSTACLE
 from nav2_costmap_2d.grid import Costmap2D
-from nav2_planner.grid_graph import cost_to_go, FloatGrid
 from nav2_planner.route import PlanningError, weight_table
 from nav2_smac_planner.curves import sample_curve, Segment, shortest_curve
+from nav2_smac_planner.grid_heuristic import GridHeuristic
 from nav2_smac_planner.heading_layers import HeadingLayers
+from nav2_smac_planner.motions import CHECK_CELLS, HybridOptions, Motion, Motions
 from nav2_util.geometry import Pose2D, wrap_angle
 import numpy as np
 import numpy.typing as npt
@@ -28,76 +27,7 @@ import numpy.typing as npt
 __all__ = ['HybridOptions', 'HybridSearch']
 
 FloatArray = npt.NDArray[np.float64]
-_HEURISTIC_CELLS = 100_000
 _YIELD_EVERY = 200
-_CHECK_CELLS = 1.4
-_BEYOND = 1e29
-
-
-@dataclass(frozen=True)
-class HybridOptions:
-    """
-    Options of a search.
-
-    Attributes
-    ----------
-    radius_m
-        The turning radius.
-    headings
-        The number of headings.
-    can_reverse, allow_unknown
-        Whether the car may drive backward, and into unknown space.
-    tolerance_m
-        The distance from a goal that cannot be reached at which a path may end.
-    max_iterations, max_time_s
-        The limits; 0 for none.
-    max_approach_iterations
-        The limit after a pose within the tolerance was reached.
-    cost_penalty, cost_power
-        As `traversal` and `power` of `weight_table`.
-    reverse_penalty, change_penalty, non_straight_penalty
-        Factors of a metre backward and in a curve, and what is added to the latter when the
-        steering changes sides.
-    retrospective_penalty
-        The share by which each step is cheaper, so that fewer poses near the start are looked at.
-    expansion_ratio
-        How often a curve to the goal is tried: more often the nearer the goal is.
-    expansion_max_length_m, expansion_max_cost
-        The limits of such a curve.
-    expand_at_any_cost
-        Whether that limit of the cost does not hold very near the goal.
-
-    """
-
-    radius_m: float
-    headings: int
-    can_reverse: bool
-    allow_unknown: bool
-    tolerance_m: float
-    max_iterations: int
-    max_approach_iterations: int
-    max_time_s: float
-    cost_penalty: float
-    cost_power: float
-    reverse_penalty: float
-    change_penalty: float
-    non_straight_penalty: float
-    retrospective_penalty: float
-    expansion_ratio: float
-    expansion_max_length_m: float
-    expansion_max_cost: float
-    expand_at_any_cost: bool
-
-
-class _Step(NamedTuple):
-    """A motion from a heading: its places on the way and at its end, in cells."""
-
-    segment: Segment
-    factor: float
-    on_the_way: tuple[tuple[float, float, int], ...]
-    x: float
-    y: float
-    heading: int
 
 
 class _Node:
@@ -106,13 +36,13 @@ class _Node:
     __slots__ = ('before', 'cost', 'heading', 'is_closed', 'step', 'x', 'y')
 
     def __init__(
-        self, x: float, y: float, heading: int, cost: float, before: _Node | None, step: _Step
+        self, x: float, y: float, heading: int, cost: float, before: _Node | None, step: Motion
     ) -> None:
         self.x, self.y, self.heading, self.cost = x, y, heading, cost
         self.before, self.step, self.is_closed = before, step, False
 
 
-_NO_STEP = _Step(Segment(0, 0.0), 1.0, (), 0.0, 0.0, 0)
+_NO_STEP = Motion(Segment(0, 0.0), 1.0, (), 0.0, 0.0, 0)
 
 
 class HybridSearch:
@@ -144,7 +74,7 @@ class HybridSearch:
         self._start, self._goal = start, goal
         self._cell_m = costmap.resolution
         self._rows, self._columns = map(int, costmap.cells.shape)
-        self._turn_rad = 2.0 * math.pi / options.headings
+        self._turn_rad = options.turn_rad
         self._layers = HeadingLayers(costmap, footprint, options.headings, options.allow_unknown)
         table = weight_table(
             options.cost_penalty, power=options.cost_power, allow_unknown=options.allow_unknown
@@ -153,7 +83,7 @@ class HybridSearch:
         self._grid = table[costmap.cells]
         self._costs = costmap.cells.tobytes()
         self._end = self._place(goal)
-        self._steps: dict[int, list[_Step]] = {}
+        self._motions = Motions(options, self._cell_m)
         self._nodes: dict[int, _Node] = {}
         self._queue: list[tuple[float, int, _Node, list[Segment] | None]] = []
         self._pushed = self._until_curve = 0
@@ -178,7 +108,7 @@ class HybridSearch:
         begin = self._place(self._start)
         self._check(begin, self._start, 'start', may_be_occupied=False)
         self._check(self._end, self._goal, 'goal', may_be_occupied=options.tolerance_m > 0.0)
-        self._make_heuristic()
+        self._heuristic = self._make_heuristic()
         yield
         best = _Node(*begin, 0.0, None, _NO_STEP)
         best_apart_m, iterations, approached = math.inf, 0, math.inf
@@ -214,7 +144,7 @@ class HybridSearch:
             return self._path(*self._best_curve[1:])
         if best_apart_m <= options.tolerance_m:
             return self._path(best, [])
-        raise self._failure(iterations, bool(self._queue), best_apart_m)
+        raise _failure(options, self._goal, iterations, bool(self._queue), best_apart_m)
 
     def _push(self, cost: float, node: _Node, curve: list[Segment] | None = None) -> None:
         self._pushed += 1
@@ -257,70 +187,23 @@ class HybridSearch:
                 'nothing is there, or choose another pose.',
             )
 
-    def _make_heuristic(self) -> None:
-        """Compute the costs from cells to the goal for a robot that moves in any direction."""
-        factor = math.ceil(math.sqrt(self._grid.size / _HEURISTIC_CELLS))
-        grid = _pooled(self._grid, factor)
-        free = np.isfinite(grid)
-        goal = int(self._end[1]) // factor, int(self._end[0]) // factor
-        near = _nearest_free(free, goal, self._options.tolerance_m / self._cell_m / factor)
-        if near is None:
+    def _make_heuristic(self) -> GridHeuristic:
+        x, y, _ = self._end
+        heuristic = GridHeuristic(self._grid, (x, y), self._options.tolerance_m, self._cell_m)
+        if not heuristic.has_goal:
             raise PlanningError(
                 'GOAL_OCCUPIED',
                 f'The goal ({self._goal.x:.2f}, {self._goal.y:.2f}) is occupied, and nothing '
                 'within the tolerance is free. Choose another goal.',
             )
-        found = cost_to_go(grid, free, near)
-        costs: FloatArray = np.full(grid.shape, np.inf)
-        reached = found.costs < _BEYOND
-        width = found.ids.shape[1] + 2
-        row, column = np.divmod(found.places[reached], width)
-        row, column = row + found.origin[0] - 1, column + found.origin[1] - 1
-        costs[row, column] = found.costs[reached] * factor * self._cell_m
-        self._remaining: memoryview[float] = memoryview(costs.ravel())  # type: ignore[arg-type]
-        self._heuristic_shape = factor, grid.shape[1]
-
-    def _estimate(self, x: float, y: float) -> float:
-        """Return the least cost from a place to the goal, in m times weights."""
-        factor, width = self._heuristic_shape
-        remaining: float = self._remaining[int(y) // factor * width + int(x) // factor]
-        return remaining
-
-    def _steps_from(self, heading: int) -> list[_Step]:
-        """Return the motions from a heading: straight on, and in curves; also backward."""
-        known = self._steps.get(heading)
-        if known is None:
-            options = self._options
-            directions = (1.0, -1.0) if options.can_reverse else (1.0,)
-            known = self._steps[heading] = [
-                self._step(heading, steer, direction)
-                for direction in directions
-                for steer in (0, 1, -1)
-            ]
-        return known
-
-    def _step(self, heading: int, steer: int, direction: float) -> _Step:
-        """Make a motion that leaves the cell, and turns by whole headings."""
-        options, cell_m = self._options, self._cell_m
-        least_m = math.sqrt(2.0) * cell_m
-        share = min(1.0, least_m / (2.0 * options.radius_m))
-        turns = max(1, math.ceil(2.0 * math.asin(share) / self._turn_rad - 1e-9))
-        length_m = max(least_m, options.radius_m * turns * self._turn_rad)
-        start = Pose2D(0.0, 0.0, heading * self._turn_rad)
-        segment = Segment(steer, direction * length_m)
-        poses = sample_curve(start, [segment], options.radius_m, _CHECK_CELLS * cell_m)
-        places = [
-            (x / cell_m, y / cell_m, round(yaw / self._turn_rad) % options.headings)
-            for x, y, yaw in poses.tolist()
-        ]
-        return _Step(segment, self._factor(segment), tuple(places[:-1]), *places[-1])
+        return heuristic
 
     def _expand(self, node: _Node) -> None:
         """Reach the poses at the ends of the motions from a node."""
         options, columns = self._options, self._columns
         keep = 1.0 - options.retrospective_penalty
         steer = node.step.segment.steer
-        for step in self._steps_from(node.heading):
+        for step in self._motions.leaving(node.heading):
             x, y, heading = node.x + step.x, node.y + step.y, step.heading
             if not self._is_inside(x, y):
                 continue
@@ -336,13 +219,13 @@ class HybridSearch:
             cost = node.cost + way * self._table[self._costs[place]]
             if known is not None and (known.is_closed or known.cost <= cost):
                 continue
-            remaining = self._estimate(x, y)
+            remaining = self._heuristic.estimate(x, y)
             if remaining == math.inf or self._hits(node, step):
                 continue
             reached = self._nodes[key] = _Node(x, y, heading, cost, node, step)
             self._push(cost + remaining, reached)
 
-    def _hits(self, node: _Node, step: _Step) -> bool:
+    def _hits(self, node: _Node, step: Motion) -> bool:
         """Whether the robot collides on the way of a motion."""
         for dx, dy, heading in step.on_the_way:
             x, y = node.x + dx, node.y + dy
@@ -370,7 +253,7 @@ class HybridSearch:
         length_m = sum(abs(each.length_m) for each in curve)
         if length_m > options.expansion_max_length_m:
             return
-        poses = sample_curve(pose, curve, options.radius_m, _CHECK_CELLS * self._cell_m)
+        poses = sample_curve(pose, curve, options.radius_m, CHECK_CELLS * self._cell_m)
         costs = self._costs_at(poses)
         if costs is None:
             return
@@ -379,18 +262,12 @@ class HybridSearch:
         if highest > options.expansion_max_cost and not is_near:
             return
         weight = sum(self._table[each] for each in costs) / max(len(costs), 1)
-        ways = (abs(each.length_m) * self._factor(each) for each in curve)
+        ways = (abs(each.length_m) * self._motions.factor(each) for each in curve)
         keep = 1.0 - options.retrospective_penalty
         cost = node.cost + sum(ways) * weight * keep
         if self._best_curve is None or cost < self._best_curve[0]:
             self._best_curve = cost, node, curve
             self._push(cost, node, curve)
-
-    def _factor(self, segment: Segment) -> float:
-        """Return how much a metre of a motion costs in free space."""
-        options = self._options
-        factor = options.non_straight_penalty if segment.steer else 1.0
-        return factor * options.reverse_penalty if segment.length_m < 0.0 else factor
 
     def _costs_at(self, poses: FloatArray) -> list[int] | None:
         """Return the costs at the centres of poses; None for a collision."""
@@ -427,51 +304,29 @@ class HybridSearch:
         parts.append(np.array([self._start]))
         return np.concatenate(parts[::-1])
 
-    def _failure(self, iterations: int, is_cut_short: bool, apart_m: float) -> PlanningError:
-        options = self._options
-        closest = f'The nearest place that was reached is {apart_m:.2f} m from it'
-        where = f'to the goal ({self._goal.x:.2f}, {self._goal.y:.2f})'
-        if not is_cut_short:
-            return PlanningError(
-                'NO_VALID_PATH',
-                f'There is no path {where} that a robot with a turning radius of '
-                f'{options.radius_m:g} m can drive. {closest}; the tolerance is '
-                f'{options.tolerance_m:g} m. Clear the way, clear the global costmap, or choose '
-                'another goal.',
-            )
-        if 0 < options.max_iterations <= iterations:
-            return PlanningError(
-                'NO_VALID_PATH',
-                f'No path {where} was found in {iterations} iterations; max_iterations allows no '
-                f'more. {closest}. Increase it, or choose a nearer goal.',
-            )
+
+def _failure(
+    options: HybridOptions, goal: Pose2D, iterations: int, is_cut_short: bool, apart_m: float
+) -> PlanningError:
+    """Make the error for a search that has found no path."""
+    closest = f'The nearest place that was reached is {apart_m:.2f} m from it'
+    where = f'to the goal ({goal.x:.2f}, {goal.y:.2f})'
+    if not is_cut_short:
         return PlanningError(
-            'TIMEOUT',
-            f'No path {where} was found within {options.max_time_s:g} s. {closest}. Increase '
-            'max_planning_time, or use a coarser costmap.',
+            'NO_VALID_PATH',
+            f'There is no path {where} that a robot with a turning radius of '
+            f'{options.radius_m:g} m can drive. {closest}; the tolerance is '
+            f'{options.tolerance_m:g} m. Clear the way, clear the global costmap, or choose '
+            'another goal.',
         )
-
-
-def _pooled(grid: FloatGrid, factor: int) -> FloatGrid:
-    """Downsample cells by the minimum of their weights, so that no way is closed."""
-    if factor <= 1:
-        return grid
-    rows, columns = (-(-size // factor) for size in grid.shape)
-    padded = np.full((rows * factor, columns * factor), np.inf, np.float32)
-    padded[: grid.shape[0], : grid.shape[1]] = grid
-    pooled: FloatGrid = padded.reshape(rows, factor, columns, factor).min(axis=(1, 3))
-    return pooled
-
-
-def _nearest_free(
-    free: npt.NDArray[np.bool_], cell: tuple[int, int], radius: float
-) -> tuple[int, int] | None:
-    """Return the free cell that is nearest to another one, within a radius in cells."""
-    places = np.argwhere(free)
-    if not len(places):
-        return None
-    apart = np.hypot(*(places - np.array(cell)).T)
-    best = int(np.argmin(apart))
-    if apart[best] > max(radius, 0.5):
-        return None
-    return int(places[best, 0]), int(places[best, 1])
+    if 0 < options.max_iterations <= iterations:
+        return PlanningError(
+            'NO_VALID_PATH',
+            f'No path {where} was found in {iterations} iterations; max_iterations allows no '
+            f'more. {closest}. Increase it, or choose a nearer goal.',
+        )
+    return PlanningError(
+        'TIMEOUT',
+        f'No path {where} was found within {options.max_time_s:g} s. {closest}. Increase '
+        'max_planning_time, or use a coarser costmap.',
+    )

@@ -2,8 +2,8 @@
 """
 A virtual trackball: turn an object by dragging a point of a window.
 
-K. Shoemake, "ARCBALL: a user interface for specifying three-dimensional orientation using a mouse",
-1992.
+K. Shoemake, "ARCBALL: a user interface for specifying three-dimensional orientation using a
+mouse", 1992.
 """
 
 from __future__ import annotations
