@@ -146,6 +146,18 @@ class HybridSearch:
             return self._path(best, [])
         raise _failure(options, self._goal, iterations, bool(self._queue), best_apart_m)
 
+    def is_free(self, poses: FloatArray) -> bool:
+        """
+        Check that the robot collides nowhere.
+
+        Parameters
+        ----------
+        poses
+            (M, 3) x and y in m, yaw in rad.
+
+        """
+        return self._costs_at(poses) is not None
+
     def _push(self, cost: float, node: _Node, curve: list[Segment] | None = None) -> None:
         self._pushed += 1
         heapq.heappush(self._queue, (cost, self._pushed, node, curve))

@@ -11,7 +11,7 @@ from nav2_planner.global_planner import GlobalPlanner, poses_along
 from nav2_planner.grid_planner import GridPlanner
 from nav2_planner.path_shape import blend_headings
 from nav2_planner.route import SearchOptions, weight_table
-from nav2_smac_planner.smac_planner_2d import Smoothing, UnsmoothedPlan
+from nav2_smac_planner.smac_planner_2d import corner_poses, Smoothing, UnsmoothedPlan
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.parameters import parameter
@@ -121,7 +121,7 @@ class PlanarPlanner(GlobalPlanner):
             max_time_s=values.max_time_s,
         )
         route = yield from self._planner.plan(grid, start, goal, options)
-        self._unsmoothed.publish(route, self.costmap.global_frame)
+        self._unsmoothed.publish(corner_poses(route), self.costmap.global_frame)
         poses = poses_along(
             route,
             start,

@@ -18,7 +18,13 @@ from nav_msgs.msg import Path
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ['SmacPlanner2D', 'SmootherParameters', 'Smoothing', 'UnsmoothedPlan']
+__all__ = [
+    'SmacPlanner2D',
+    'SmootherParameters',
+    'Smoothing',
+    'UnsmoothedPlan',
+    'corner_poses',
+]
 
 _MODELS = ('MOORE', 'VON_NEUMANN', '2D')
 
@@ -65,6 +71,20 @@ class Smoothing:
         return Rounding(values.w_smooth, values.w_data, 1 + again)
 
 
+def corner_poses(route: Route) -> npt.NDArray[np.float64]:
+    """
+    Compute the (N, 3) poses at the corners of a path, which face along it.
+
+    Parameters
+    ----------
+    route
+        The straight lines that were planned.
+
+    """
+    places = route.to_world(route.corners)
+    return np.column_stack([places, headings(places)])
+
+
 class UnsmoothedPlan:
     """
     Publisher of the unsmoothed path on `unsmoothed_plan`, if it has subscribers.
@@ -80,22 +100,20 @@ class UnsmoothedPlan:
         self._node = node
         self._publisher = node.create_lifecycle_publisher(Path, 'unsmoothed_plan', 1)
 
-    def publish(self, route: Route, frame: str) -> None:
+    def publish(self, poses: npt.NDArray[np.float64], frame: str) -> None:
         """
-        Publish the corners of a path.
+        Publish a path as it was planned.
 
         Parameters
         ----------
-        route
-            The straight lines that were planned.
+        poses
+            (N, 3) x and y in m, yaw in rad.
         frame
             The frame of the costmap.
 
         """
         if not self._publisher.get_subscription_count():
             return
-        places = route.to_world(route.corners)
-        poses = np.column_stack([places, headings(places)])
         self._publisher.publish(make_path(poses, frame, self._node.get_clock().now().to_msg()))
 
 
@@ -187,7 +205,7 @@ class SmacPlanner2D(GlobalPlanner):
         )
         planner = self._planners[values.motion_model_for_search]
         route = yield from planner.plan(grid, start, goal, options)
-        self._unsmoothed.publish(route, self.costmap.global_frame)
+        self._unsmoothed.publish(corner_poses(route), self.costmap.global_frame)
         return poses_along(
             route,
             start,

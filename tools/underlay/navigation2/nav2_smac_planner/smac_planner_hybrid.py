@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from nav2_costmap_2d.costmap_node import Costmap2DROS
 from nav2_planner.global_planner import GlobalPlanner
 from nav2_smac_planner.hybrid_search import HybridOptions, HybridSearch
+from nav2_smac_planner.hybrid_smoothing import smoothed_path
+from nav2_smac_planner.smac_planner_2d import Smoothing, UnsmoothedPlan
 from nav2_util.geometry import Pose2D
 from nav2_util.lifecycle_node import LifecycleNode
 from nav2_util.parameters import parameter, Unsupported
@@ -34,13 +36,6 @@ _UNSUPPORTED = {
     ),
     'debug_visualizations': Unsupported('the search is not published', (False,)),
     'viz_expansions': Unsupported('the search is not published', (False,)),
-    'smooth_path': Unsupported('paths of arcs and straight lines are not smoothed', (True, False)),
-    'smoother.max_iterations': Unsupported('paths of arcs and straight lines are not smoothed'),
-    'smoother.w_smooth': Unsupported('paths of arcs and straight lines are not smoothed'),
-    'smoother.w_data': Unsupported('paths of arcs and straight lines are not smoothed'),
-    'smoother.tolerance': Unsupported('paths of arcs and straight lines are not smoothed'),
-    'smoother.do_refinement': Unsupported('paths of arcs and straight lines are not smoothed'),
-    'smoother.refinement_num': Unsupported('paths of arcs and straight lines are not smoothed'),
 }
 
 
@@ -92,6 +87,9 @@ class HybridParameters:
     use_quadratic_cost_penalty: bool = parameter(
         False, 'Whether that rises with the square of the cost.'
     )
+    smooth_path: bool = parameter(
+        True, 'Whether to smooth the path where the robot can still drive it.'
+    )
 
     def options(self) -> HybridOptions:
         """Convert the parameters to options of the search."""
@@ -132,6 +130,8 @@ class SmacPlannerHybrid(GlobalPlanner):
         super().__init__(node, name, costmap)
         self._parameters = node.parameters.declare(HybridParameters, prefix=name)
         node.parameters.declare_unsupported(_UNSUPPORTED, prefix=name)
+        self._smoothing = Smoothing(node, name)
+        self._unsmoothed = UnsmoothedPlan(node)
 
     def create_plan(
         self, start: Pose2D, goal: Pose2D
@@ -156,7 +156,12 @@ class SmacPlannerHybrid(GlobalPlanner):
             There is no path.
 
         """
-        options = self._parameters.current.options()
+        values = self._parameters.current
+        options, rounding = values.options(), self._smoothing.rounding
         footprint = self.costmap.collision_footprint
         search = HybridSearch(self.costmap.grid, footprint, options, start, goal)
-        return (yield from search.plan())
+        poses = yield from search.plan()
+        self._unsmoothed.publish(poses, self.costmap.global_frame)
+        if values.smooth_path and rounding is not None:
+            poses = smoothed_path(poses, rounding, options.radius_m, search.is_free)
+        return poses

@@ -9,10 +9,12 @@ import math
 from nav2_costmap_2d.footprint import FootprintCollisionChecker
 from nav2_costmap_2d.grid import Costmap2D
 from nav2_planner.global_planner import finish
+from nav2_planner.path_shape import Rounding
 from nav2_planner.route import PlanningError
 from nav2_smac_planner.curves import sample_curve, shortest_curve
 from nav2_smac_planner.heading_layers import HeadingLayers
 from nav2_smac_planner.hybrid_search import HybridSearch
+from nav2_smac_planner.hybrid_smoothing import smoothed_path
 from nav2_smac_planner.smac_planner_hybrid import HybridParameters
 from nav2_util.geometry import Pose2D, wrap_angle
 import numpy as np
@@ -153,3 +155,56 @@ def test_a_goal_in_a_wall_is_approached_within_the_tolerance():
     poses = plan(grid, (1.0, 2.0, 0.0), (4.1, 2.0, 0.0), options)
     assert math.hypot(poses[-1, 0] - 4.1, poses[-1, 1] - 2.0) <= 0.5
     check(grid, poses, options.radius_m)
+
+
+ROUNDING = Rounding(0.3, 0.2, 3)
+
+
+def _bends(poses):
+    """Return how much the curvature changes along a path, in 1/m per pose, at most."""
+    yaws = np.unwrap(np.arctan2(*np.diff(poses[:, :2], axis=0).T[::-1]))
+    lengths = np.hypot(*np.diff(poses[:, :2], axis=0).T)
+    return np.abs(np.diff(np.diff(yaws) / lengths[1:])).max()
+
+
+@pytest.mark.parametrize(
+    ('walls', 'start', 'goal', 'options'),
+    [
+        ([(2.9, 0.0, 3.1, 2.6)], (1.0, 1.0, 0.0), (5.0, 1.0, 0.0), OPTIONS),
+        ([], (3.0, 1.0, 0.0), (3.0, 2.2, math.pi), OPTIONS),
+        ([], (1.0, 1.0, 0.0), (2.0, 1.4, 0.0), REVERSING),
+        ([], (2.0, 2.0, 0.0), (2.0, 2.6, math.pi), REVERSING),
+    ],
+    ids=['wall', 'circle', 'lane', 'cusps'],
+)
+def test_smooth_paths_can_be_driven(walls, start, goal, options):
+    """The steering changes more slowly; ends, cusps and the turning radius stay."""
+    grid = room(*walls)
+    search = HybridSearch(grid, CAR, options, Pose2D(*start), Pose2D(*goal))
+    poses = finish(search.plan())
+    found = smoothed_path(poses, ROUNDING, options.radius_m, search.is_free)
+    assert found.shape == poses.shape
+    assert found[[0, -1]] == pytest.approx(poses[[0, -1]])
+    along = check(grid, found, options.radius_m, CAR)
+    before = check(grid, poses, options.radius_m, CAR)
+    assert (np.sign(along) == np.sign(before)).all()
+    if not (along < 0.0).any():
+        assert _bends(found) < 0.8 * _bends(poses)
+
+
+def test_what_would_collide_is_not_smoothed():
+    """Then the path is as it was."""
+    search = HybridSearch(room(), None, OPTIONS, Pose2D(1.0, 1.0, 0.0), Pose2D(3.0, 3.0, 1.0))
+    poses = finish(search.plan())
+    assert smoothed_path(poses, ROUNDING, OPTIONS.radius_m, lambda _: False) == pytest.approx(
+        poses
+    )
+    found = smoothed_path(poses, ROUNDING, OPTIONS.radius_m, lambda _: True)
+    assert np.abs(found - poses).max() > 1e-3
+
+
+@pytest.mark.parametrize('count', [1, 2, 5])
+def test_short_paths_stay(count):
+    """There is nothing to smooth."""
+    poses = np.column_stack([np.arange(count) * 0.05, np.zeros(count), np.zeros(count)])
+    assert smoothed_path(poses, ROUNDING, 0.4, lambda _: True) == pytest.approx(poses)
