@@ -46,7 +46,7 @@ from ros2cli.rtps.parameters import (
 OBSERVER: Address = (THIS_HOST, 50000)
 ENTITIES_WRITER = bytes.fromhex('00000103')
 HEADER_BYTES = 20
-ACKNACK, DATA = 0x06, 0x15
+ACKNACK, INFO_DESTINATION, DATA = 0x06, 0x0E, 0x15
 FRAGMENT_BYTES = 32000
 ANSWER_S = 0.1
 DISTANT_HOST = '10.0.0.2'
@@ -174,13 +174,17 @@ class Participant:
         self._add(PUBLICATIONS_WRITER, encode_parameters([(PID_ENDPOINT_GUID, guid)]), guid)
 
     def receive(self, datagram: bytes, *, is_multicast: bool = False) -> None:
-        """Answer a greeting at once, and requests after a while."""
-        offset = HEADER_BYTES
+        """Answer a greeting at once, and requests after a while, unless they are for another."""
+        offset, is_for_us = HEADER_BYTES, True
         while offset < len(datagram):
             kind, _, size = struct.unpack_from('<BBH', datagram, offset)
             start, offset = offset + 4, offset + 4 + size
             body = datagram[start:offset]
-            if kind == DATA and body[8:12] == PARTICIPANTS_WRITER:
+            if kind == INFO_DESTINATION:
+                is_for_us = body == self.prefix
+            elif not is_for_us:
+                continue
+            elif kind == DATA and body[8:12] == PARTICIPANTS_WRITER:
                 if PID_STATUS_INFO.to_bytes(2, 'little') + b'\x04\x00\0\0\0\3' in body:
                     self._network.farewells.append(self.port)
                 else:

@@ -2,12 +2,16 @@
 """Tests of the translation from results and exceptions to exit statuses."""
 
 from collections.abc import Callable, Iterator
+import os
 import signal
 import sys
+import threading
 
 import pytest
+import rclpy
+from rclpy.executors import ExternalShutdownException
 from ros2cli.cli import run_to_status
-from ros2cli.node.direct import interrupts_deferred
+from ros2cli.node.direct import DirectNode, interrupts_deferred
 
 
 def raising(error: BaseException) -> Callable[[], int]:
@@ -95,8 +99,6 @@ def test_unexpected_error_is_raised() -> None:
 
 def test_external_shutdown_has_status_of_sigterm() -> None:
     """The exception by which rclpy reports SIGTERM has the status of that signal."""
-    from rclpy.executors import ExternalShutdownException
-
     assert 'rclpy.executors' in sys.modules
     assert run_to_status(raising(ExternalShutdownException())) == 15
 
@@ -117,3 +119,22 @@ def test_uninterrupted_block_raises_nothing() -> None:
     with interrupts_deferred():
         pass
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@pytest.mark.parametrize(
+    ('number', 'error'),
+    [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, ExternalShutdownException)],
+)
+def test_signal_that_python_hears_of_after_rclpy(
+    number: signal.Signals, error: type[BaseException], domain: int
+) -> None:
+    """rclpy may be shut down before Python knows the signal: the command ends as it should."""
+    before = signal.getsignal(signal.SIGTERM)
+    late = threading.Timer(0.1, os.kill, (os.getpid(), number))
+    with pytest.raises(error):
+        with DirectNode(None):
+            rclpy.shutdown()
+            late.start()
+            raise ExternalShutdownException
+    late.join()
+    assert signal.getsignal(signal.SIGTERM) is before

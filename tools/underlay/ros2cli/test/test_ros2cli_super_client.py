@@ -203,6 +203,25 @@ def test_a_killed_participant_is_replaced() -> None:
     assert names(network) == ['node1_0']
 
 
+def test_a_killed_participant_that_is_told_of_late() -> None:
+    """The one that has its port now has answered already: it is asked once more, and stays."""
+    network = ServerNetwork()
+    killed, present = (network.add(index, host=THIS_HOST) for index in range(2))
+    del network.participants[present.port]
+    present.port = killed.port
+    network.participants[present.port] = present
+    network.describe(present, THIS_HOST)
+    network.run(LONG_S)
+    assert network.client.is_complete and names(network) == ['node1_0']
+    network.describe(killed, THIS_HOST)
+    for writer in READERS:
+        network._announce(writer)
+    end_s = network.now_s + 1.0
+    while network.now_s < end_s:
+        network.step()
+    assert network.client.is_complete and names(network) == ['node1_0']
+
+
 def test_machines_with_an_address_in_common() -> None:
     """The bridge of Docker has the same address everywhere: its machine is one of the others."""
     network = ServerNetwork()

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 import os
 import signal
+import time
 from types import FrameType, TracebackType
 from typing import Any, TYPE_CHECKING
 
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from ros2cli.graph.watch import GraphWatch
 
 __all__ = ['DirectNode', 'add_arguments']
+
+_LATE_S = 0.5
+_LOOK_S = 0.005
 
 
 class DirectNode:
@@ -71,6 +75,8 @@ class DirectNode:
 
     def __enter__(self) -> DirectNode:
         """Initialize rclpy and create the node; discovery is not waited for."""
+        self._is_terminated = False
+        self._before = signal.signal(signal.SIGTERM, self._note_sigterm)
         rclpy.init(args=self._words, signal_handler_options=self._signals)
         self.node = rclpy.create_node(
             self._node_name,
@@ -124,16 +130,26 @@ class DirectNode:
         trace: TracebackType | None,
     ) -> None:
         """Shut the node down; suppress an error caused by SIGTERM having shut rclpy down."""
-        terminated = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
-        with interrupts_deferred():
+        is_shut_down = not rclpy.ok() and not isinstance(error, KeyboardInterrupt)
+        with interrupts_deferred() as interrupts:
             if self._watch is not None:
                 self._watch.close()
             self.executor.shutdown()
             self._destroy_waitables()
             self.node.destroy_node()
             rclpy.try_shutdown()
-        if terminated:
+            # The signal that has shut rclpy down may not have reached Python yet: which one is it?
+            end_s = time.monotonic() + _LATE_S
+            while is_shut_down and not (interrupts or self._is_terminated):
+                if time.monotonic() > end_s:
+                    break
+                time.sleep(_LOOK_S)
+            signal.signal(signal.SIGTERM, self._before)
+        if is_shut_down:
             raise ExternalShutdownException from None
+
+    def _note_sigterm(self, number: int, _: FrameType | None) -> None:
+        self._is_terminated = True
 
     def _destroy_waitables(self) -> None:
         """
@@ -154,11 +170,17 @@ def _check_rclpy() -> None:
 
 
 @contextmanager
-def interrupts_deferred() -> Iterator[None]:
+def interrupts_deferred() -> Iterator[list[int]]:
     """
     Raise KeyboardInterrupt only at the end of the block.
 
     This includes an earlier SIGINT that rclpy has received but Python has not handled yet.
+
+    Yields
+    ------
+    list of int
+        The number of SIGINT, as often as it was received so far.
+
     """
     received: list[int] = []
 
@@ -171,7 +193,7 @@ def interrupts_deferred() -> Iterator[None]:
         remember(signal.SIGINT, None)
         previous = signal.signal(signal.SIGINT, remember)
     try:
-        yield
+        yield received
     finally:
         signal.signal(signal.SIGINT, previous)
     if received:

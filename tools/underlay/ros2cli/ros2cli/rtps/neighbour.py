@@ -168,6 +168,14 @@ class Neighbour:
         if self._entities:
             yield self._message(_request(self._entities)), self._user
 
+    def ask_again(self) -> None:
+        """Ask for its nodes once more, to see whether it still answers."""
+        if self._entities:
+            self._entities.want_last()
+            self._ask_again_s = 0.0
+            self._is_acknowledged = False
+            self._patience_s = PATIENCE_S
+
     def add(self, endpoint: Endpoint) -> None:
         """
         Add one of its readers and writers.

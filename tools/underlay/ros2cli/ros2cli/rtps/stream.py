@@ -97,6 +97,12 @@ class Stream:
         self._ahead.update(number for number in numbers if self.wants(number))
         self._advance(self._next)
 
+    def want_last(self) -> None:
+        """Count the last sample as missing, to see whether the writer still answers."""
+        if self._last:
+            self._next = min(self._next, self._last)
+            self._ahead.clear()
+
     def skip(self, start: int, end: int) -> None:
         """
         Mark a range of samples as never to arrive.

@@ -313,6 +313,10 @@ class SuperClient:
         elsewhere = [host for host, _ in discovery if host not in self._hosts]
         client = Neighbour(self._prefix, prefix, discovery[0], user[0], [])
         client.found_at(elsewhere[0] if elsewhere else THIS_HOST)
+        # One of those that have this port was killed: which of them answers?
+        for each in self.neighbours if client.is_here else ():
+            if each.discovery == client.discovery:
+                each.ask_again()
         self._clients[prefix] = client
         if described.octets(PID_USER_DATA).startswith(ENCLAVE):
             self._with_nodes.add(prefix)
