@@ -6,7 +6,7 @@ packages at a time as there is room for; then what builds src/. Two kinds are le
 linters, which `make check` runs for all packages at once, and stories, which `make stories` runs.
 
 What fails is run once more at the end, alone. What passes then is unsteady: it is listed, and more
-than three of that kind are a failure. Everything together is given 70 minutes.
+than three of that kind are a failure. Everything together is given 45 minutes.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from typing import IO
 from xml.etree import ElementTree
 
 ROOT = Path(__file__).resolve().parents[2]
-LIMIT_S = 70 * 60.0
+LIMIT_S = 45 * 60.0
 MOST_UNSTEADY = 3
 CORES = min(os.cpu_count() or 1, 12)
 """Processors that tests may keep busy: each process of tests reserves some of the DDS domains.
